@@ -107,7 +107,7 @@ fn without_a_degree_of_freedom_there_is_no_band_and_the_estimates_say_why() {
     let standing = |parameter| report.estimates.iter().find(|estimate| estimate.parameter == parameter).expect("of the model").status();
     assert_eq!(
         (report.statistics.dof, standing(Parameter::N), standing(Parameter::Kd)),
-        (0, EstimateStatus::NoDegreesOfFreedom, EstimateStatus::Fixed)
+        (0, EstimateStatus::UncertaintyUnknown, EstimateStatus::Fixed)
     );
     assert!(report.band.dolp(&facets(50.0)).iter().all(Option::is_none));
 }

@@ -3,8 +3,9 @@
 use crate::error::refused;
 use crate::surface::geometry;
 use numpy::{PyArray1, PyReadonlyArray1};
+use pbrdf::measurement::foreign::{LabTable, TableOptions};
 use pbrdf::measurement::formats::{ImportError, ImportNote, ImportOptions, Opened, open};
-use pbrdf::measurement::{Expected, Quantity, Row, unwatched, write_measurements};
+use pbrdf::measurement::{Expected, Mapping, Quantity, Row, choose_wavelength, unwatched, write_measurements};
 use pyo3::prelude::*;
 use std::path::{Path, PathBuf};
 
@@ -135,9 +136,10 @@ impl Measurement {
     }
 }
 
-/// What a foreign file is told: a wavelength in nm, angles in degrees.
+/// What a foreign file is told: which columns mean what, a wavelength in nm, angles in degrees.
 #[derive(FromPyObject)]
 pub struct Answers {
+    columns: Option<String>,
     wavelength_nm: Option<f64>,
     theta_i: Vec<f64>,
     theta_r: Vec<f64>,
@@ -151,8 +153,9 @@ pub fn read(py: Python<'_>, path: PathBuf, answers: Answers) -> PyResult<Vec<Mea
     let file = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     let is_split = found.len() > 1;
     let named = |mut measurement: pbrdf::Measurement| {
-        let wavelength = measurement.wavelength_nm().filter(|_| is_split).map(|nm| format!("{nm} nm"));
-        let set = Some(measurement.name).filter(|name| !name.is_empty());
+        let set = Some(measurement.name.clone()).filter(|name| !name.is_empty());
+        let is_named = |wavelength: &String| set.as_ref().is_some_and(|set| set.ends_with(wavelength));
+        let wavelength = measurement.wavelength_nm().filter(|_| is_split).map(|nm| format!("{nm} nm")).filter(|nm| !is_named(nm));
         let parts: Vec<String> = [set, wavelength].into_iter().flatten().collect();
         measurement.name = if parts.is_empty() { file.clone() } else { parts.join(" ") };
         Measurement { measurement }
@@ -167,9 +170,12 @@ fn read_file(path: &Path, answers: Answers) -> Result<Vec<pbrdf::Measurement>, S
         std::io::ErrorKind::IsADirectory => "this is a directory; expected a file".to_owned(),
         _ => format!("the file cannot be read: {error}"),
     })?;
-    let Answers { wavelength_nm, theta_i, theta_r, dphi } = answers;
-    let options = ImportOptions { wavelength_nm, theta_i, theta_r, dphi, ..ImportOptions::default() };
+    let Answers { columns, wavelength_nm, theta_i, theta_r, dphi } = answers;
     let said = |error: ImportError| refused_text(&error);
+    if let Some(columns) = columns {
+        return read_columns(bytes, &columns, wavelength_nm, dphi);
+    }
+    let options = ImportOptions { wavelength_nm, theta_i, theta_r, dphi, ..ImportOptions::default() };
     let mut found = match open(bytes, &mut unwatched).map_err(said)? {
         Opened::Measurements(found) => found,
         Opened::Foreign(file) => {
@@ -182,15 +188,48 @@ fn read_file(path: &Path, answers: Answers) -> Result<Vec<pbrdf::Measurement>, S
             measurements
         }
     };
+    if found.len() > 1 {
+        found = at_wavelength(found, wavelength_nm)?;
+    }
     if let Some(first) = found.first_mut().filter(|first| !first.ignored_columns.is_empty()) {
         first.notes.push(ImportNote::IgnoredColumns { names: first.ignored_columns.clone() });
     }
     Ok(found)
 }
 
+/// The measurements of a table whose columns are named, as in `theta_i=1,theta_r=2,dolp=3:percent`.
+fn read_columns(bytes: Vec<u8>, columns: &str, wavelength_nm: Option<f64>, dphi: Option<f64>) -> Result<Vec<pbrdf::Measurement>, String> {
+    let said = |error: ImportError| refused_text(&error);
+    let mapping = Mapping::from_text(columns).map_err(|error| format!("columns: {error}"))?;
+    let options = TableOptions { columns: Some(mapping), wavelength_nm, dphi, ..TableOptions::default() };
+    let table = LabTable::open(bytes, &options, &mut unwatched).map_err(said)?;
+    let mut imported = table.read(&options, &mut unwatched).map_err(said)?;
+    if let Some(first) = imported.measurements.first_mut() {
+        first.notes.append(&mut imported.notes);
+    }
+    Ok(imported.measurements)
+}
+
+/// Of measurements at several wavelengths those at the one that is nearest to the one asked for.
+fn at_wavelength(mut found: Vec<pbrdf::Measurement>, wanted_nm: Option<f64>) -> Result<Vec<pbrdf::Measurement>, String> {
+    let available: Vec<f64> = found.iter().filter_map(pbrdf::Measurement::wavelength_nm).collect();
+    let Some(wanted_nm) = wanted_nm.filter(|_| !available.is_empty()) else { return Ok(found) };
+    let nearest = choose_wavelength(&available, Some(wanted_nm)).map_err(|error| error.to_string())?;
+    found.retain(|measurement| measurement.wavelength_nm().is_none_or(|nm| nm == nearest));
+    if let Some(first) = found.first_mut().filter(|_| nearest != wanted_nm) {
+        first.notes.push(ImportNote::NearestWavelength { wanted_nm, taken_nm: vec![nearest] });
+    }
+    Ok(found)
+}
+
 /// Options of the command line, and what answers them here.
-const ANSWERS: [(&str, &str); 4] =
-    [("--theta-i", "theta_i="), ("--theta-r", "theta_r="), ("--dphi", "dphi="), ("--wavelength", "wavelength_nm=")];
+const ANSWERS: [(&str, &str); 5] = [
+    ("as in --columns ", "as in columns="),
+    ("--theta-i", "theta_i="),
+    ("--theta-r", "theta_r="),
+    ("--dphi", "dphi="),
+    ("--wavelength", "wavelength_nm="),
+];
 
 /// An error of an import with its hint, in the words of Python.
 fn refused_text(error: &ImportError) -> String {

@@ -57,6 +57,28 @@ def test_a_file_of_several_is_read_as_a_list(tmp_path):
         pbrdf.read(path)
 
 
+def test_one_wavelength_of_several_is_the_nearest(tmp_path):
+    path = tmp_path / "two.csv"
+    path.write_text("Wellenlänge (nm);θi;θr;DoLP [%]\n450;30;40;12,7\n650;30;40;11,0\n", encoding="utf-8")
+    assert [data.name for data in pbrdf.read_all(path)] == ["450 nm", "650 nm"]
+    assert pbrdf.read(path, wavelength_nm=650).dolp.tolist() == [0.11]
+    with pytest.warns(UserWarning, match="640 nm; the nearest was taken, 650 nm"):
+        assert pbrdf.read(path, wavelength_nm=640).dolp.tolist() == [0.11]
+    with pytest.raises(pbrdf.PbrdfError, match="5000"):
+        pbrdf.read(path, wavelength_nm=5000)
+
+
+def test_columns_can_be_named(tmp_path):
+    path = tmp_path / "odd.csv"
+    path.write_text("a;b;Messwert\n30;40;12,7\n50;50;26,8\n", encoding="utf-8")
+    with pytest.raises(pbrdf.PbrdfError, match="columns=theta_i=1"):
+        pbrdf.read(path)
+    for columns in ({"theta_i": 1, "theta_r": "b", "dolp": "Messwert:percent"}, "theta_i=1,theta_r=2,dolp=3:percent"):
+        assert pbrdf.read(path, columns=columns).dolp.tolist() == pytest.approx([0.127, 0.268], rel=1e-15)
+    with pytest.raises(pbrdf.PbrdfError, match="columns: "):
+        pbrdf.read(path, columns="theta_x=1")
+
+
 def test_what_a_reader_has_to_say_is_warned_of(tmp_path):
     path = tmp_path / "more.csv"
     path.write_text("theta_i,theta_r,dolp,operator\n30,40,0.1,7\n", encoding="utf-8")

@@ -186,7 +186,7 @@ fn print(out: &mut dyn Write, measurement: &Measurement, results: &[ModelResult]
                     EstimateStatus::Fixed => format!("{:.5} fixed", estimate.value),
                     EstimateStatus::AtBound(_) => format!("{:.5} at bound", estimate.value),
                     EstimateStatus::Determined(error) => format!("{:.5} ± {error:.1e}", estimate.value),
-                    EstimateStatus::NoDegreesOfFreedom => format!("{:.5} no d.o.f.", estimate.value),
+                    EstimateStatus::UncertaintyUnknown => format!("{:.5} ± unknown", estimate.value),
                     EstimateStatus::Within(interval) => format!("{:.5} {}", estimate.value, ends_text(estimate.value, interval)),
                     EstimateStatus::Undetermined => format!("{:.5} open", estimate.value),
                 },

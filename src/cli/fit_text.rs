@@ -57,7 +57,7 @@ pub fn print_estimate(out: &mut dyn Write, name: &str, width: usize, estimate: &
         EstimateStatus::AtBound(Edge::Lower) => "at lower".to_owned(),
         EstimateStatus::AtBound(Edge::Upper) => "at upper".to_owned(),
         EstimateStatus::Determined(error) => format!("{error:.3e}"),
-        EstimateStatus::NoDegreesOfFreedom => "no d.o.f.".to_owned(),
+        EstimateStatus::UncertaintyUnknown => "unknown".to_owned(),
         EstimateStatus::Within(interval) => ends_text(estimate.value, interval),
         EstimateStatus::Undetermined => "not determined".to_owned(),
     };

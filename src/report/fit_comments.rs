@@ -44,7 +44,7 @@ fn estimate_text(estimate: &Estimate) -> String {
     match estimate.status() {
         EstimateStatus::Determined(error) => parts.push(format!("standard error {}", significant(error, 3))),
         EstimateStatus::Fixed => parts.push("fixed".to_owned()),
-        EstimateStatus::NoDegreesOfFreedom => parts.push("no degree of freedom left".to_owned()),
+        EstimateStatus::UncertaintyUnknown => parts.push("uncertainty unknown".to_owned()),
         EstimateStatus::Undetermined => parts.push("not determined".to_owned()),
         EstimateStatus::AtBound(_) | EstimateStatus::Within(_) => {}
     }

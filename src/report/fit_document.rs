@@ -209,7 +209,7 @@ impl FitDocument<'_> {
             EstimateStatus::Fixed => self.text("fixed"),
             EstimateStatus::AtBound(edge) => return bound(edge),
             EstimateStatus::Determined(_) | EstimateStatus::Within(_) => estimate.uncertainty_text().unwrap_or_default(),
-            EstimateStatus::NoDegreesOfFreedom => self.text("no degree of freedom left"),
+            EstimateStatus::UncertaintyUnknown => self.text("uncertainty unknown"),
             EstimateStatus::Undetermined => self.text("not determined"),
         };
         let parts: Vec<String> = [Some(text), estimate.at_bound.map(bound)].into_iter().flatten().collect();

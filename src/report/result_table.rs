@@ -78,13 +78,13 @@ enum Mark {
     Upper,
     Uneven,
     Undetermined,
-    NoDegreesOfFreedom,
+    UncertaintyUnknown,
     Joint,
 }
 
 impl Mark {
     const ALL: [Self; 8] =
-        [Self::Shared, Self::Fixed, Self::Lower, Self::Upper, Self::Uneven, Self::Undetermined, Self::NoDegreesOfFreedom, Self::Joint];
+        [Self::Shared, Self::Fixed, Self::Lower, Self::Upper, Self::Uneven, Self::Undetermined, Self::UncertaintyUnknown, Self::Joint];
 
     /// The note, English.
     fn note(self) -> &'static str {
@@ -95,7 +95,7 @@ impl Mark {
             Self::Upper => "at its upper bound",
             Self::Uneven => "the interval at 68.3 %; its ends lie very unevenly about the best fit",
             Self::Undetermined => "not determined by the data; the value of the best fit",
-            Self::NoDegreesOfFreedom => "no degree of freedom is left for an uncertainty",
+            Self::UncertaintyUnknown => "the uncertainty is unknown: no degree of freedom is left, or none was asked for",
             Self::Joint => "of all measurements fitted together",
         }
     }
@@ -204,7 +204,7 @@ fn cell_of(estimate: &Estimate) -> Cell {
         EstimateStatus::Fixed => (Number::Text(trimmed(value, 6)), Some(Mark::Fixed)),
         EstimateStatus::AtBound(_) => (Number::Text(trimmed(value, 6)), None),
         EstimateStatus::Determined(error) => (symmetric(value, error), None),
-        EstimateStatus::NoDegreesOfFreedom => (Number::Text(trimmed(value, 6)), Some(Mark::NoDegreesOfFreedom)),
+        EstimateStatus::UncertaintyUnknown => (Number::Text(trimmed(value, 6)), Some(Mark::UncertaintyUnknown)),
         EstimateStatus::Within(interval) => {
             let number = within(value, interval);
             let is_uneven = matches!(number, Number::Between(_));

@@ -58,8 +58,8 @@ pub enum EstimateStatus {
     Determined(f64),
     /// The data determine it to this interval at 68.3 %, closed on one side at least; a standard error would say something else.
     Within(Interval),
-    /// The data determine it, but no degree of freedom is left to estimate the noise from.
-    NoDegreesOfFreedom,
+    /// The data determine it, but how well is unknown: no degree of freedom is left to estimate the noise from, or none was asked for.
+    UncertaintyUnknown,
     /// The data do not determine it.
     Undetermined,
 }
@@ -97,7 +97,7 @@ impl Estimate {
             (true, Some(interval), _, None) if !interval.is_open() => EstimateStatus::Within(interval),
             (true, None, Some(edge), _) => EstimateStatus::AtBound(edge),
             (true, _, _, Some(error)) => EstimateStatus::Determined(error),
-            (true, _, _, None) if self.determined => EstimateStatus::NoDegreesOfFreedom,
+            (true, _, _, None) if self.determined => EstimateStatus::UncertaintyUnknown,
             (true, _, _, None) => EstimateStatus::Undetermined,
         }
     }
@@ -119,7 +119,7 @@ impl Estimate {
                 with_error(self.value, Some(nearer(self.value, low, high))).0
             }
             EstimateStatus::Within(_) | EstimateStatus::Undetermined => trimmed(self.value, 3),
-            EstimateStatus::Fixed | EstimateStatus::AtBound(_) | EstimateStatus::NoDegreesOfFreedom => trimmed(self.value, 6),
+            EstimateStatus::Fixed | EstimateStatus::AtBound(_) | EstimateStatus::UncertaintyUnknown => trimmed(self.value, 6),
         }
     }
 
@@ -141,7 +141,7 @@ impl fmt::Display for Estimate {
             EstimateStatus::AtBound(Edge::Lower) => write!(f, "at lower bound {}", self.value),
             EstimateStatus::AtBound(Edge::Upper) => write!(f, "at upper bound {}", self.value),
             EstimateStatus::Determined(_) => write!(f, "{} {}", self.value_text(), self.uncertainty_text().unwrap_or_default()),
-            EstimateStatus::NoDegreesOfFreedom => write!(f, "{} (no degrees of freedom)", self.value),
+            EstimateStatus::UncertaintyUnknown => write!(f, "{} (uncertainty unknown)", self.value),
             EstimateStatus::Within(interval) => {
                 let value = if interval.is_closed() { self.value_text() + " " } else { String::new() };
                 write!(f, "{value}{} (68 %)", ends_text(self.value, interval))
@@ -267,6 +267,6 @@ mod tests {
         assert_eq!(Estimate { free: false, value: 1.0, ..free }.to_string(), "1 (fixed)");
         assert_eq!(Estimate { at_bound: Some(Edge::Lower), value: 0.0, ..free }.to_string(), "at lower bound 0");
         assert_eq!(Estimate { std_error: None, determined: false, ..free }.to_string(), "not determined");
-        assert_eq!(Estimate { std_error: None, ..free }.to_string(), "2.0713 (no degrees of freedom)");
+        assert_eq!(Estimate { std_error: None, ..free }.to_string(), "2.0713 (uncertainty unknown)");
     }
 }

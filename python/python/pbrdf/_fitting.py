@@ -139,7 +139,7 @@ class FitResult:
 
     @property
     def objective(self) -> float | None:
-        """ΔE of Eq. (18) of Wang et al. (2021): the root of Σ (X − Xm)²/Σ Xm², of DoLP if measured, else of BRDF; with both, the sum. None
+        """ΔE of Eq. (18) of Wang et al. (2021): Σ (X − Xm)²/Σ Xm², of DoLP if measured, else of BRDF; with both, the sum. None
         where all measured values are 0."""
         return self._document["objective"]
 

@@ -229,6 +229,7 @@ def _to_rows(measured: np.ndarray, shape: tuple[int, ...]) -> np.ndarray:
 def read_all(
     path: str | os.PathLike[str],
     *,
+    columns: str | Mapping[str, int | str] | None = None,
     wavelength_nm: float | None = None,
     theta_i: ArrayLike | None = None,
     theta_r: ArrayLike | None = None,
@@ -238,6 +239,7 @@ def read_all(
     if not isinstance(path, (str, os.PathLike)):
         raise PbrdfError(f"path is a {type(path).__name__}; expected the name of a file")
     answers = SimpleNamespace(
+        columns=",".join(f"{name}={column}" for name, column in columns.items()) if isinstance(columns, Mapping) else columns,
         wavelength_nm=None if wavelength_nm is None else _checks.number("wavelength_nm", wavelength_nm),
         theta_i=[] if theta_i is None else _checks.numbers("theta_i", theta_i).ravel().tolist(),
         theta_r=[] if theta_r is None else _checks.numbers("theta_r", theta_r).ravel().tolist(),
@@ -252,13 +254,14 @@ def read_all(
 
 def read_quietly(path: str | os.PathLike[str], answers: SimpleNamespace | None = None) -> list[Measurement]:
     """The same without warnings."""
-    none = SimpleNamespace(wavelength_nm=None, theta_i=[], theta_r=[], dphi=None)
+    none = SimpleNamespace(columns=None, wavelength_nm=None, theta_i=[], theta_r=[], dphi=None)
     return [Measurement._of(inner) for inner in _pbrdf.read(os.fspath(path), answers or none)]
 
 
 def read(
     path: str | os.PathLike[str],
     *,
+    columns: str | Mapping[str, int | str] | None = None,
     wavelength_nm: float | None = None,
     theta_i: ArrayLike | None = None,
     theta_r: ArrayLike | None = None,
@@ -269,6 +272,8 @@ def read(
 
     Args:
         path: The file.
+        columns: What the columns of a table mean, where its header does not say it: their numbers or names, with a unit behind a colon,
+            as in ``{"theta_i": 1, "theta_r": 2, "dolp": "3:percent"}`` or ``"theta_i=1,theta_r=2,dolp=3:percent"``.
         wavelength_nm: Which wavelength of a file with several, in nm; the nearest is taken.
         theta_i: Angles of incidence in degrees, where the file does not state them or has a choice.
         theta_r: Angles of view in degrees, where the file has a choice.
@@ -280,7 +285,7 @@ def read(
         PbrdfError: The file cannot be read, with line and column; it needs an answer that is not given; or it holds several measurements,
             which :func:`read_all` returns.
     """
-    found = read_all(path, wavelength_nm=wavelength_nm, theta_i=theta_i, theta_r=theta_r, dphi=dphi)
+    found = read_all(path, columns=columns, wavelength_nm=wavelength_nm, theta_i=theta_i, theta_r=theta_r, dphi=dphi)
     if len(found) > 1:
         names = ", ".join(measurement.name for measurement in found)
         raise PbrdfError(f"{os.fspath(path)} holds {len(found)} measurements ({names}); read_all returns them as a list")

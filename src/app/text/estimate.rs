@@ -11,7 +11,7 @@ pub fn uncertainty_text(estimate: &Estimate) -> String {
         EstimateStatus::Fixed => tr!("fixed"),
         EstimateStatus::AtBound(edge) => bound_text(edge),
         EstimateStatus::Determined(_) | EstimateStatus::Within(_) => estimate.uncertainty_text().unwrap_or_default(),
-        EstimateStatus::NoDegreesOfFreedom => tr!("no d.o.f."),
+        EstimateStatus::UncertaintyUnknown => tr!("no d.o.f."),
         EstimateStatus::Undetermined => tr!("not determined"),
     }
 }

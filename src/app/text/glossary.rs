@@ -113,7 +113,7 @@ pub fn standing_help(standing: EstimateStatus) -> String {
         EstimateStatus::AtBound(_) => AT_BOUND.help(),
         EstimateStatus::Determined(_) => tr!("One standard error, linearised at the solution"),
         EstimateStatus::Within(_) => tr!("The interval at 68.3 %, by profile likelihood: this parameter held, all others fitted again"),
-        EstimateStatus::NoDegreesOfFreedom => {
+        EstimateStatus::UncertaintyUnknown => {
             tr!("As many values as free parameters (no degree of freedom): nothing is left over to tell an error from.")
         }
         EstimateStatus::Undetermined => OPEN.help(),
