@@ -177,8 +177,11 @@ impl<const OUT: usize> KernelRun<'_, OUT> {
             for first in (0..LANES).step_by(V::<S>::LEN) {
                 let (values, needs_scalar) = kernel.at(simd, &Points { simd, block, first });
                 let at = LANES * i + first;
-                for (column, value) in self.columns.iter_mut().zip(values).filter(|(column, _)| !column.is_empty()) {
-                    value.store_slice(&mut column[at..at + V::<S>::LEN]);
+                // By reference: moved, the vectors would go through memory.
+                for (column, value) in self.columns.iter_mut().zip(&values) {
+                    if !column.is_empty() {
+                        value.store_slice(&mut column[at..at + V::<S>::LEN]);
+                    }
                 }
                 if needs_scalar.any_true() {
                     self.repair(at..at + V::<S>::LEN, needs_scalar.to_bitmask());
