@@ -48,8 +48,14 @@ impl Axis {
     /// Label and unit as they stand beside the axis.
     #[must_use]
     pub fn title(&self) -> String {
-        if self.unit.is_empty() { self.label.clone() } else { format!("{} / {}", self.label, self.unit) }
+        with_unit(&self.label, &self.unit)
     }
+}
+
+/// A name and its unit as they stand beside numbers, `θr / °`; the name alone where there is no unit.
+#[must_use]
+pub fn with_unit(name: &str, unit: &str) -> String {
+    if unit.is_empty() { name.to_owned() } else { format!("{name} / {unit}") }
 }
 
 /// How an axis is divided.

@@ -23,7 +23,7 @@ mod svg;
 mod text;
 mod ticks;
 
-pub use axis::{Axis, Scale};
+pub use axis::{Axis, Scale, with_unit};
 pub(crate) use canvas::escape;
 pub use contours::Heights;
 pub use heat_map::HeatMap;

@@ -53,6 +53,11 @@ impl<K: PartialEq> FigurePlot<K> {
         self.panels.first()?.axes.seen_x()
     }
 
+    /// The same where the user has moved it there.
+    pub fn moved_x(&self) -> Option<Range> {
+        self.seen_x().filter(|_| self.panels.first().is_some_and(PanelPlot::is_moved))
+    }
+
     /// A panel of it.
     pub fn panel(&mut self, index: usize) -> Option<&mut PanelPlot> {
         self.panels.get_mut(index)

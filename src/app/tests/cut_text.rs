@@ -198,7 +198,12 @@ fn at_all_sizes(harness: &mut Window, place: &str, found: &mut Vec<String>) {
     }
 }
 
-fn assert_none(found: &[String]) {
+/// Looks for faults in each language, and asserts that there is none.
+fn in_each_language(mut look: impl FnMut(Language, &mut Vec<String>)) {
+    let mut found = Vec::new();
+    for language in LANGUAGES {
+        look(language, &mut found);
+    }
     assert!(found.is_empty(), "{} faults\n{}", found.len(), found.join("\n"));
 }
 
@@ -209,8 +214,7 @@ fn act(harness: &mut Window, action: Action) {
 
 #[test]
 fn panes() {
-    let mut found = Vec::new();
-    for language in LANGUAGES {
+    in_each_language(|language, found| {
         let mut harness = spoken(harness(), language);
         act(&mut harness, Action::StartFit);
         for pane in PaneId::ALL.iter().copied() {
@@ -223,31 +227,27 @@ fn panes() {
                 );
             }
         }
-    }
-    assert_none(&found);
+    });
 }
 
 #[test]
 fn two_panes_and_panels() {
-    let mut found = Vec::new();
-    for language in LANGUAGES {
+    in_each_language(|language, found| {
         let mut harness = spoken(harness(), language);
-        at_all_sizes(&mut harness, &format!("start {language:?}"), &mut found);
+        at_all_sizes(&mut harness, &format!("start {language:?}"), found);
         act(&mut harness, Action::Toggle(Switch::Bounds));
         explorer(&mut harness).work.surface_mut().set_bounds(Parameter::N, 0.5, 3.0).expect("bounds");
         act(&mut harness, Action::List(ListAction::PinOtherDistribution));
-        at_all_sizes(&mut harness, &format!("bounds {language:?}"), &mut found);
+        at_all_sizes(&mut harness, &format!("bounds {language:?}"), found);
         act(&mut harness, Action::CompareModels);
         alone(&mut harness, PaneId::Models);
-        at_all_sizes(&mut harness, &format!("models {language:?}"), &mut found);
-    }
-    assert_none(&found);
+        at_all_sizes(&mut harness, &format!("models {language:?}"), found);
+    });
 }
 
 #[test]
 fn panels_unfolded() {
-    let mut found = Vec::new();
-    for language in LANGUAGES {
+    in_each_language(|language, found| {
         let mut harness = spoken(harness(), language);
         act(&mut harness, Action::StartFit);
         // Their titles, or how they begin, as far as they are there.
@@ -258,93 +258,85 @@ fn panels_unfolded() {
             let Some(heading) = harness.query_all_by_label(&title).next() else { panic!("{title}") };
             heading.click_accesskit();
             wait(&mut harness);
-            at_all_sizes(&mut harness, &format!("{title} {language:?}"), &mut found);
+            at_all_sizes(&mut harness, &format!("{title} {language:?}"), found);
         }
         act(&mut harness, Action::Bootstrap);
-        at_all_sizes(&mut harness, &format!("bootstrap {language:?}"), &mut found);
+        at_all_sizes(&mut harness, &format!("bootstrap {language:?}"), found);
         act(&mut harness, Action::Profile(Parameter::N));
-        at_all_sizes(&mut harness, &format!("profile {language:?}"), &mut found);
-    }
-    assert_none(&found);
+        at_all_sizes(&mut harness, &format!("profile {language:?}"), found);
+    });
 }
 
 #[test]
 fn several_measurements() {
-    let mut found = Vec::new();
-    for language in LANGUAGES {
+    in_each_language(|language, found| {
         let (harness, _folder) = three();
         let mut harness = spoken(harness, language);
-        at_all_sizes(&mut harness, &format!("three {language:?}"), &mut found);
+        at_all_sizes(&mut harness, &format!("three {language:?}"), found);
         act(&mut harness, Action::List(ListAction::Share(Sharing::Wavelengths)));
         act(&mut harness, Action::Toggle(Switch::Bounds));
-        at_all_sizes(&mut harness, &format!("shared {language:?}"), &mut found);
-    }
-    assert_none(&found);
+        at_all_sizes(&mut harness, &format!("shared {language:?}"), found);
+    });
 }
 
 #[test]
 fn lessons() {
-    let mut found = Vec::new();
-    for language in LANGUAGES {
+    in_each_language(|language, found| {
         let mut harness = spoken(harness(), language);
         for lesson in 0..explorer(&mut harness).lessons.all.len() {
             for step in 0..explorer(&mut harness).lessons.all[lesson].steps.len() {
                 act(&mut harness, Action::ShowStep(lesson, step));
-                at_all_sizes(&mut harness, &format!("lesson {} step {} {language:?}", lesson + 1, step + 1), &mut found);
+                at_all_sizes(&mut harness, &format!("lesson {} step {} {language:?}", lesson + 1, step + 1), found);
             }
         }
-    }
-    assert_none(&found);
+    });
 }
 
 #[test]
 fn presentations() {
-    let mut found = Vec::new();
-    for language in LANGUAGES {
+    in_each_language(|language, found| {
         let mut harness = spoken(harness(), language);
         // The harness is in points already.
         explorer(&mut harness).window.talk.zoom = 1.0;
         act(&mut harness, Action::Window(WindowAction::Present));
-        at_all_sizes(&mut harness, &format!("two {language:?}"), &mut found);
+        at_all_sizes(&mut harness, &format!("two {language:?}"), found);
         for pane in [PaneId::Picture, PaneId::Hemisphere] {
             act(&mut harness, Action::Window(WindowAction::ShowPane(pane)));
         }
-        at_all_sizes(&mut harness, &format!("four {language:?}"), &mut found);
+        at_all_sizes(&mut harness, &format!("four {language:?}"), found);
         for pane in [PaneId::Dolp, PaneId::Lobes, PaneId::Hemisphere] {
             act(&mut harness, Action::Window(WindowAction::ClosePane(pane)));
         }
-        at_all_sizes(&mut harness, &format!("picture {language:?}"), &mut found);
+        at_all_sizes(&mut harness, &format!("picture {language:?}"), found);
         let halves = PictureOptions { companion: PictureCompanion::OtherDistribution, ..PictureOptions::default() };
         edit(&mut harness, Edit::SetPictureOptions(halves));
-        at_all_sizes(&mut harness, &format!("halves {language:?}"), &mut found);
-    }
-    assert_none(&found);
+        at_all_sizes(&mut harness, &format!("halves {language:?}"), found);
+    });
 }
 
 #[test]
 fn dialogs() {
-    let mut found = Vec::new();
-    for language in LANGUAGES {
+    in_each_language(|language, found| {
         for step in 0..4 {
             let mut harness = spoken(harness(), language);
             act(&mut harness, Action::Window(WindowAction::ShowTour(step)));
-            at_all_sizes(&mut harness, &format!("tour {step} {language:?}"), &mut found);
+            at_all_sizes(&mut harness, &format!("tour {step} {language:?}"), found);
         }
         for page in [Help::FirstSteps, Help::Words, Help::About] {
             let mut harness = spoken(harness(), language);
             act(&mut harness, Action::Window(WindowAction::ShowHelp(page)));
-            at_all_sizes(&mut harness, &format!("{page:?} {language:?}"), &mut found);
+            at_all_sizes(&mut harness, &format!("{page:?} {language:?}"), found);
         }
         let mut harness = spoken(harness(), language);
         act(&mut harness, Action::Window(WindowAction::OpenPalette));
-        at_all_sizes(&mut harness, &format!("palette {language:?}"), &mut found);
+        at_all_sizes(&mut harness, &format!("palette {language:?}"), found);
         for (name, key) in
             [("file", Key::F), ("edit", Key::E), ("measurements", Key::M), ("fit", Key::I), ("view", Key::V), ("lessons", Key::L)]
         {
             let mut harness = spoken(crate::app::tests::harness(), language);
             harness.key_press_modifiers(Modifiers::ALT, key);
             wait(&mut harness);
-            at_all_sizes(&mut harness, &format!("menu {name} {language:?}"), &mut found);
+            at_all_sizes(&mut harness, &format!("menu {name} {language:?}"), found);
         }
         let folder = tempfile::tempdir().expect("a folder");
         let lab =
@@ -353,7 +345,6 @@ fn dialogs() {
         let mut harness = spoken(crate::app::tests::harness(), language);
         act(&mut harness, Action::OpenMeasurements(paths));
         assert!(explorer(&mut harness).dialogs.import.is_some());
-        at_all_sizes(&mut harness, &format!("import {language:?}"), &mut found);
-    }
-    assert_none(&found);
+        at_all_sizes(&mut harness, &format!("import {language:?}"), found);
+    });
 }

@@ -15,7 +15,7 @@ use crate::app::views::curves::{CurveKey, CurveSet, MarkSet, ModelCurves, axis_v
 use crate::app::views::picking::{clicked_mask, mask_hint};
 use crate::app::views::pointing::{mark, note_theta_r};
 use crate::app::views::posterior_band::{self, BandQuantity, PosteriorBands};
-use crate::app::views::residuals::{BETWEEN, ResidualStrip};
+use crate::app::views::residuals::{ResidualStrip, above_strip};
 use crate::app::views::series_choice::series_choice_ui;
 use crate::app::work::edit::Switch;
 use crate::app::work::open_measurement::OpenMeasurement;
@@ -194,22 +194,17 @@ impl View for DolpView {
         plot.refresh(figure_key, |_| Some(self.describe(curves, key, marks, cx)));
         self.plot = plot;
         // Where the user has moved the plot, the strip follows.
-        let is_moved = self.plot.panel(0).is_some_and(|panel| panel.is_moved());
-        let moved = self.plot.seen_x().filter(|_| is_moved);
+        let x = self.plot.moved_x().unwrap_or(key.x());
         let hidden: Vec<bool> = marks.series.iter().map(|marks| !self.shows(Line::Series(marks.index))).collect();
         let companions = derived.companions.iter().filter(|companion| self.shows(Line::Companion(companion.id)));
-        self.residuals.refresh((moved.unwrap_or(key.x()), String::new()), marks, hidden, &companions.collect::<Vec<_>>(), cx);
+        self.residuals.refresh((x, String::new()), marks, hidden, &companions.collect::<Vec<_>>(), cx);
     }
 
     fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
-        match self.residuals.height(ui) {
-            Some(strip) => {
-                self.curves_ui(cx, ui, ui.available_height() - strip - BETWEEN, PanelPlace::OverStrip);
-                ui.add_space(BETWEEN - ui.spacing().item_spacing.y);
-                self.residuals.ui(ui, strip);
-            }
-            None => self.curves_ui(cx, ui, ui.available_height(), PanelPlace::Alone),
-        }
+        let strip = self.residuals.height(ui);
+        let (height, place) = above_strip(ui, strip);
+        self.curves_ui(cx, ui, height, place);
+        self.residuals.ui(ui, strip);
     }
 
     fn options_ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {

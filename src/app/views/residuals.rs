@@ -96,7 +96,10 @@ impl ResidualStrip {
         self.plot.seen_x()
     }
 
-    pub fn ui(&mut self, ui: &mut Ui, height: f32) {
+    /// Draws it, if there is one, that high.
+    pub fn ui(&mut self, ui: &mut Ui, height: Option<f32>) {
+        let Some(height) = height else { return };
+        ui.add_space(BETWEEN - ui.spacing().item_spacing.y);
         let hover = |name: &str, x: f64, y: f64| tr!("{0}\nθr = {1}°\nresidual = {2}", name, format!("{x:.2}"), format!("{y:.2e}"));
         let spread = if height < LOW { 2.2 } else { 3.5 };
         let id = if self.quantity == ResidualQuantity::Dolp { "residuals" } else { "residuals of BRDF" };
@@ -117,10 +120,16 @@ const LEAST_ROOM: f32 = 220.0;
 const SHARE: f32 = 0.25;
 const LEAST: f32 = 92.0;
 /// Between plot and strip, in points: what the strip shows is written there, and numbers at their ends are not to meet.
-pub const BETWEEN: f32 = 16.0;
+const BETWEEN: f32 = 16.0;
 
 /// Below this height marks stand closer, so that there is more than that at 0.
 const LOW: f32 = 100.0;
+
+/// Height and place of a plot above a strip of that height, or above none.
+pub fn above_strip(ui: &Ui, strip: Option<f32>) -> (f32, PanelPlace) {
+    let room = ui.available_height();
+    strip.map_or((room, PanelPlace::Alone), |strip| (room - strip - BETWEEN, PanelPlace::OverStrip))
+}
 
 /// What was measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

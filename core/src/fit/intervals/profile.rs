@@ -190,7 +190,7 @@ pub(crate) fn rise(weights: Weights, minimum: f64, dof: usize, level: f64) -> f6
     }
 }
 
-/// The sum of squares from which a variance is estimated: where it is rounding, the most that may be.
+/// The sum of squares that limits and linear errors go by: one that is rounding counts as [`ROUNDING`], unless deviations are stated.
 fn above_rounding(weights: Weights, sum_of_squares: f64) -> f64 {
     if weights == Weights::None { sum_of_squares.max(ROUNDING) } else { sum_of_squares }
 }

@@ -281,7 +281,7 @@ fn prepare<S: Simd>(simd: S, [theta_i, signed_theta_r, dphi]: [V<S>; 3], block: 
     let sin_beta_sq = sines.mul_add(sin_half * sin_half, sin_m_sq);
     let across = sines * (cos_half * cos_half) * cos_m_sq;
     let cos_beta_sq_cos_m_sq = across + c_sq;
-    // What is divided by, in one division: none is below 10⁻³².
+    // Four reciprocals by one division (Montgomery's trick): two products of two divisors, none of these below 10⁻³².
     let (first_two, last_two) = (cos_m_sq * cos_beta_sq_cos_m_sq, c_sq * cosines);
     let inverse = of(1.0) / (first_two * last_two);
     let over_first_two = inverse * last_two;

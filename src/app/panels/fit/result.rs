@@ -12,9 +12,9 @@ use crate::app::text::numbers::{short, significant};
 use crate::app::views::action::{Action, ListAction};
 use crate::app::work::fit_history::{FitEntry, JointPart};
 use crate::app::work::workspace::Workspace;
+use crate::figure::with_unit;
 use egui::{Button, Grid, RichText, Role, TextWrapMode, Ui, WidgetInfo};
 use pbrdf::fit::{Bootstrap, BrdfResiduals, Estimate, FitResult, Loss, Statistics, StopReason, Weights};
-use pbrdf::model::Parameter;
 use pbrdf::rounding;
 use tr::tr;
 
@@ -156,16 +156,8 @@ fn estimates_ui(fit: &FitEntry, bootstrap: Option<&Bootstrap>, ui: &mut Ui) {
 /// Width of the panel in points from which a column of starts does not cut the intervals off.
 const WITH_START: f32 = 300.0;
 
-/// A parameter as the heading of its numbers.
-fn name_with_unit(parameter: Parameter) -> String {
-    match parameter.unit() {
-        "" => parameter.symbol().to_owned(),
-        unit => format!("{} / {unit}", parameter.symbol()),
-    }
-}
-
 fn estimate_ui(estimate: &Estimate, bootstrap: Option<&Bootstrap>, is_final: bool, with_start: bool, ui: &mut Ui) {
-    ui.label(name_with_unit(estimate.parameter)).on_hover_text(translated(estimate.parameter.name()));
+    ui.label(with_unit(estimate.parameter.symbol(), estimate.parameter.unit())).on_hover_text(translated(estimate.parameter.name()));
     if with_start {
         ui.monospace(significant(estimate.start));
     }

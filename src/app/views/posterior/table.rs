@@ -4,6 +4,7 @@ use crate::app::plots::theme;
 use crate::app::text::explained::Explained as _;
 use crate::app::text::i18n::translated;
 use crate::app::work::posterior::DrawnPosterior;
+use crate::figure::with_unit;
 use crate::report::FittedMark;
 use egui::{Grid, RichText, ScrollArea, Ui};
 use pbrdf::fit::UnknownName as _;
@@ -28,8 +29,7 @@ pub fn summary_ui(drawn: &DrawnPosterior, fitted: &[Option<FittedMark>], place: 
             }
             for (quantity, of_sets) in &drawn.derived {
                 let Some(summary) = of_sets.get(place) else { continue };
-                let unit = if quantity.unit().is_empty() { String::new() } else { format!(" / {}", quantity.unit()) };
-                ui.label(format!("{}{unit}", translated(quantity.symbol()))).explained(translated(derived_help(*quantity)));
+                ui.label(with_unit(&translated(quantity.symbol()), quantity.unit())).explained(translated(derived_help(*quantity)));
                 summary_cells_ui(summary, ui);
                 ui.scope(|_| ());
                 ui.end_row();
