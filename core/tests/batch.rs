@@ -212,6 +212,9 @@ fn columns_of_angles_agree_with_the_scalar_form_everywhere() {
             angles.radiances(&surface, values.each_mut().map(Vec::as_mut_slice)).expect("geometries");
             prepared.radiances(&surface, again.each_mut().map(Vec::as_mut_slice)).expect("as many numbers");
             assert_eq!(values.each_ref().map(|column| bits(column)), again.each_ref().map(|column| bits(column)));
+            let mut brdf = vec![0.0; count];
+            angles.radiances(&surface, [&mut brdf, &mut [], &mut []]).expect("geometries");
+            assert_eq!(bits(&brdf), bits(&values[0]));
             for (i, geometry) in geometries.iter().enumerate() {
                 let expected = surface.reflection(&pbrdf::optics::Facet::new(*geometry));
                 let [brdf, dolp, specular] = values.each_ref().map(|column| column[i]);

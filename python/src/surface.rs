@@ -16,9 +16,9 @@ const BLOCK: usize = 16_384;
 /// Elements of a Mueller matrix.
 const MUELLER: usize = 16;
 
-/// What is wanted beside BRDF, DoLP and the specular part of the BRDF.
+/// What is wanted beside BRDF and DoLP.
 struct Wanted {
-    /// Diffuse and volume part of the BRDF.
+    /// Specular, diffuse and volume part of the BRDF.
     terms: bool,
     mueller: bool,
     /// Derivatives of BRDF and DoLP by these.
@@ -31,17 +31,17 @@ impl Wanted {
         Ok(Self { terms, mueller, by })
     }
 
-    /// Numbers of a point in each column: BRDF, DoLP, specular part; diffuse and volume part; Mueller matrix; derivatives of the BRDF, then of
+    /// Numbers of a point in each column: BRDF, DoLP; specular, diffuse and volume part; Mueller matrix; derivatives of the BRDF, then of
     /// DoLP, in the order of [`Parameter::ALL`].
     fn widths(&self) -> Vec<usize> {
-        let mut widths = vec![1; if self.terms { 5 } else { 3 }];
+        let mut widths = vec![1; if self.terms { 5 } else { 2 }];
         widths.extend(self.mueller.then_some(MUELLER));
         widths.extend(std::iter::repeat_n(1, 2 * self.by.len()));
         widths
     }
 }
 
-/// Fills the columns of [`Wanted::widths`] beyond the first three with the values at points.
+/// Fills the columns of [`Wanted::widths`] beyond [`radiance_columns`] with the values at points.
 fn fill_rest(angles: AngleColumns<'_>, surface: &Pbrdf, wanted: &Wanted, columns: Vec<&mut [f64]>) -> Result<(), AngleColumnsError> {
     if columns.is_empty() {
         return Ok(());
@@ -136,9 +136,10 @@ fn arrays_of<'py>(
     Ok(arrays)
 }
 
-/// The first three columns, and the others.
-fn radiance_columns(mut columns: Vec<&mut [f64]>) -> ([&mut [f64]; 3], Vec<&mut [f64]>) {
-    let rest = columns.split_off(3.min(columns.len()));
+/// BRDF, DoLP and its specular part, which is empty where no term is wanted; and the other columns.
+fn radiance_columns<'a>(mut columns: Vec<&'a mut [f64]>, wanted: &Wanted) -> ([&'a mut [f64]; 3], Vec<&'a mut [f64]>) {
+    let radiances = if wanted.terms { 3 } else { 2 };
+    let rest = columns.split_off(radiances.min(columns.len()));
     let mut columns = columns.into_iter();
     (std::array::from_fn(|_| columns.next().unwrap_or_default()), rest)
 }
@@ -159,8 +160,8 @@ impl Question {
     }
 }
 
-/// Columns of values at angles in degrees, of points in an array of that shape: BRDF, DoLP, specular part; on request diffuse and volume
-/// part, the Mueller matrix (16 numbers a point), derivatives of the BRDF, then of DoLP.
+/// Columns of values at angles in degrees, of points in an array of that shape: BRDF, DoLP; on request specular, diffuse and volume part,
+/// the Mueller matrix (16 numbers a point), derivatives of the BRDF, then of DoLP.
 #[pyfunction]
 pub fn evaluate<'py>(
     py: Python<'py>,
@@ -175,7 +176,7 @@ pub fn evaluate<'py>(
     let angles = AngleColumns::new(theta_i, theta_r, dphi).map_err(refused)?;
     arrays_of(py, &shape, angles.len(), &wanted, |number, out| {
         let part = angles.part(points_of_block(number, angles.len()));
-        let (radiances, rest) = radiance_columns(out);
+        let (radiances, rest) = radiance_columns(out, &wanted);
         part.radiances(&surface, radiances)?;
         fill_rest(part, &surface, &wanted, rest)
     })
@@ -210,7 +211,7 @@ impl Prepared {
         let (surface, wanted) = question.surface_and_wanted()?;
         arrays_of(py, &[], self.points, &wanted, |number, out| {
             let prepared = &self.blocks[number];
-            let (radiances, rest) = radiance_columns(out);
+            let (radiances, rest) = radiance_columns(out, &wanted);
             prepared.radiances(&surface, radiances)?;
             fill_rest(prepared.angles(), &surface, &wanted, rest)
         })

@@ -12,7 +12,7 @@ pub struct Degrees(pub f64);
 
 /// π/180 to 106 bits: the nearest double, and what it leaves over.
 pub(crate) const RADIANS_PER_DEGREE: f64 = 0.017_453_292_519_943_295;
-pub(crate) const RADIANS_PER_DEGREE_REST: f64 = 2.948_652_270_870_168_7e-19;
+const RADIANS_PER_DEGREE_REST: f64 = 2.948_652_270_870_168_7e-19;
 
 impl Degrees {
     /// The angle that completes this one to 90°; exact between 45° and 90°.

@@ -17,7 +17,7 @@ mod slope_distribution;
 mod v_grooves;
 
 pub use angle::Degrees;
-pub(crate) use angle::{RADIANS_PER_DEGREE, RADIANS_PER_DEGREE_REST};
+pub(crate) use angle::RADIANS_PER_DEGREE;
 pub use facet::Facet;
 pub use fresnel::{Fresnel, FresnelGradient};
 pub use geometry::{Geometry, GeometryError, Rotation};

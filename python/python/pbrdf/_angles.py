@@ -24,8 +24,8 @@ class Evaluation:
     """BRDF for unpolarised light, the element F00 of the Mueller matrix, in sr⁻¹."""
     dolp: Array
     """Degree of linear polarisation of the reflected light, 0 to 1."""
-    specular: Array
-    """Specular part of the BRDF, k_s F^s, in sr⁻¹."""
+    specular: Array | None = None
+    """Specular part of the BRDF, k_s F^s, in sr⁻¹; with ``terms=True``."""
     diffuse: Array | None = None
     """Diffuse part of the BRDF in sr⁻¹; with ``terms=True``."""
     volume: Array | None = None
@@ -103,7 +103,7 @@ def evaluate(
         theta_i: Zenith angles of incidence in degrees, 0 ≤ θi < 90.
         theta_r: Zenith angles of view in degrees, 0 ≤ θr < 90; or −90 < θr < 0 for the backscatter side where ``dphi`` is 180.
         dphi: Relative azimuths φr − φi in degrees; 180 is the forward side.
-        terms: Whether to return the diffuse and the volume part of the BRDF as well.
+        terms: Whether to return the specular, the diffuse and the volume part of the BRDF as well.
         mueller: Whether to return Mueller matrices.
         gradients: Whether to return derivatives by all parameters of the model; or the names of those that are wanted.
 
@@ -146,8 +146,8 @@ def _evaluation(columns: list[Array], shape: tuple[int, ...], terms: Any, muelle
     def column(of: tuple[int, ...] = shape) -> Any:
         return next(taken).reshape(of)[()]
 
-    brdf, dolp, specular = column(), column(), column()
-    diffuse, volume = (column(), column()) if terms else (None, None)
+    brdf, dolp = column(), column()
+    parts = [column() if terms else None for _ in range(3)]
     matrices = column((*shape, 4, 4)) if mueller else None
     gradients = [{name: column() for name in by} for _ in range(2)] if by else [None, None]
-    return Evaluation(brdf, dolp, specular, diffuse, volume, matrices, *gradients)
+    return Evaluation(brdf, dolp, *parts, matrices, *gradients)

@@ -1,11 +1,11 @@
 //! Points given by their angles, prepared in vectors: the formulas of [`crate::optics::Facet`] without a point's own record.
 
 use crate::model::Pbrdf;
-use crate::model::batch::elementary::ln_1p;
+use crate::model::batch::elementary::ln;
 use crate::model::batch::lanes::{Instructions, Mask, V, Vectorised, choose, dispatch, number};
 use crate::model::batch::prepared::{LANES, PointBlock, blocks};
 use crate::model::batch::runner::radiances_of_blocks;
-use crate::model::batch::trigonometry::{abs_sin_cos, sin_near_zero};
+use crate::model::batch::trigonometry::{cos_of_quadrant, half_angle_squares, sin_near_zero, sin_of_quadrant};
 use crate::optics::{Facet, Geometry, GeometryError, RADIANS_PER_DEGREE};
 use fearless_simd::prelude::*;
 use std::ops::Range;
@@ -117,7 +117,7 @@ impl<'a> AngleColumns<'a> {
     }
 
     /// BRDF in sr⁻¹, DoLP and the specular part of the BRDF of each point, on the calling thread; as [`Pbrdf::reflection`] has them, to
-    /// about 10⁻¹⁴. Nothing is kept of a point.
+    /// about 10⁻¹⁴. Nothing is kept of a point. A column that is not wanted is empty.
     ///
     /// # Errors
     ///
@@ -130,7 +130,8 @@ impl<'a> AngleColumns<'a> {
             let points = first..self.len().min(first + CHUNK);
             let part = self.part(points.clone());
             part.prepare_into(&mut buffer, first)?;
-            evaluate(surface, &buffer, &part, out.each_mut().map(|column| &mut column[points.clone()]));
+            let columns = out.each_mut().map(|column| if column.is_empty() { &mut [] } else { &mut column[points.clone()] });
+            evaluate(surface, &buffer, &part, columns);
         }
         Ok(())
     }
@@ -147,7 +148,7 @@ impl<'a> AngleColumns<'a> {
     }
 
     fn check_lengths(&self, columns: &[&mut [f64]; 3]) -> Result<(), AngleColumnsError> {
-        match columns.iter().find(|column| column.len() != self.len()) {
+        match columns.iter().find(|column| !column.is_empty() && column.len() != self.len()) {
             Some(column) => Err(AngleColumnsError::Lengths(self.len(), self.len(), column.len())),
             None => Ok(()),
         }
@@ -202,7 +203,7 @@ impl PreparedAngles {
 /// BRDF, DoLP and specular part of prepared points, whose angles are known to be some.
 fn evaluate(surface: &Pbrdf, blocks: &[PointBlock], angles: &AngleColumns<'_>, [brdf, dolp, specular]: [&mut [f64]; 3]) {
     let reflection = |point: usize| angles.geometry(point).map(|geometry| surface.reflection(&Facet::new(geometry))).unwrap_or_default();
-    radiances_of_blocks(surface, blocks, [dolp, brdf, specular], &reflection);
+    radiances_of_blocks(surface, blocks, angles.len(), [dolp, brdf, specular], &reflection);
 }
 
 /// Preparation of all blocks; `whole` says whether vectors did for all points.
@@ -266,37 +267,34 @@ fn prepare<S: Simd>(simd: S, [theta_i, signed_theta_r, dphi]: [V<S>; 3], block: 
         & (signed_theta_r.simd_ge(of(0.0)) | dphi.simd_eq(of(180.0)));
     let dphi = choose::<S>(behind, of(0.0), dphi);
 
-    let [sin_i, cos_i] = abs_sin_cos(simd, theta_i);
-    let [sin_r, cos_r] = abs_sin_cos(simd, theta_r);
-    let [sin_half, cos_half] = abs_sin_cos(simd, dphi * 0.5);
+    let (cos_i, cos_r) = (cos_of_quadrant(simd, theta_i), cos_of_quadrant(simd, theta_r));
+    let [sin_half_sq, cos_half_sq] = half_angle_squares(simd, dphi);
+    let sin_p = sin_of_quadrant(simd, (theta_i + theta_r) * 0.5);
     let sin_m = sin_near_zero(simd, (theta_i - theta_r) * 0.5);
 
-    // m = (θi − θr)/2, |m| < 45°, and c = (cos θi + cos θr)/2 = cos β cos α:
-    // sin²β = s sin²½Δφ + sin²m, cos²β = s cos²½Δφ + c²/cos²m, tan²α = (s cos²½Δφ + c² tan²m)/c², s = sin θi sin θr.
-    let (sines, cosines) = (sin_i * sin_r, cos_i * cos_r);
+    // p = (θi + θr)/2, m = (θi − θr)/2, c = (cos θi + cos θr)/2 = cos p cos m = cos β cos α, s = sin θi sin θr = sin²p − sin²m:
+    // sin²β = s sin²½Δφ + sin²m, cos²β = s cos²½Δφ + c²/cos²m, tan²α = (s cos²½Δφ + c² tan²m)/c².
+    let sines = (sin_p - sin_m) * (sin_p + sin_m);
+    let cosines = cos_i * cos_r;
     let mean_cosine = (cos_i + cos_r) * 0.5;
     let c_sq = mean_cosine * mean_cosine;
     let sin_m_sq = sin_m * sin_m;
+    // cos θi cos θr − 1 = −sin²p − sin²m.
+    let cosines_minus_1 = -sin_p.mul_add(sin_p, sin_m_sq);
     let cos_m_sq = -sin_m_sq + 1.0;
-    let sin_beta_sq = sines.mul_add(sin_half * sin_half, sin_m_sq);
-    let across = sines * (cos_half * cos_half) * cos_m_sq;
-    let cos_beta_sq_cos_m_sq = across + c_sq;
-    // Four reciprocals by one division (Montgomery's trick): two products of two divisors, none of these below 10⁻³².
-    let (first_two, last_two) = (cos_m_sq * cos_beta_sq_cos_m_sq, c_sq * cosines);
-    let inverse = of(1.0) / (first_two * last_two);
-    let over_first_two = inverse * last_two;
-    let over_last_two = inverse * first_two;
-    let cos_beta_sq = cos_beta_sq_cos_m_sq * (over_first_two * cos_beta_sq_cos_m_sq);
-    let tan_alpha_sq = c_sq.mul_add(sin_m_sq, across) * (over_last_two * cosines) * (over_first_two * cos_beta_sq_cos_m_sq);
+    let sin_beta_sq = sines.mul_add(sin_half_sq, sin_m_sq);
+    let across = sines * cos_half_sq * cos_m_sq;
+    // cos²β cos²m and c² cos²m, and 1 over both by one division: neither is below 10⁻³².
+    let (b, d) = (across + c_sq, c_sq * cos_m_sq);
+    let inverse = of(1.0) / (b * d);
+    let over_d = inverse * b;
+    let cos_beta_sq = b * (over_d * c_sq);
+    let tan_alpha_sq = c_sq.mul_add(sin_m_sq, across) * over_d;
     // cos²α = c²/cos²β.
-    let cos_alpha_sq = c_sq * cos_m_sq * (over_first_two * cos_m_sq);
-    let cos_alpha_4 = cos_alpha_sq * cos_alpha_sq;
+    let cos_alpha_sq = d * (inverse * d);
     // cos⁴α cos θi cos θr/G = cos²α max(cos²α cos θi cos θr, ½ cos β cos α max(cos θi, cos θr)).
-    let over_open = cos_alpha_4 * cosines;
-    let grooves = cos_alpha_sq * (mean_cosine * 0.5) * cos_i.max(cos_r);
-    // 1/cos²θi cos²θr − 1 by tangents, so that small angles keep their digits.
-    let over_cosines = c_sq * over_last_two;
-    let tangents = sin_r.mul_add(sin_r, sin_i * sin_i * (cos_r * cos_r)) * (over_cosines * over_cosines);
+    let over_open = cos_alpha_sq * cosines;
+    let grooves = (mean_cosine * 0.5) * cos_i.max(cos_r);
     let reduced = theta_r * RADIANS_PER_DEGREE;
 
     let end = first + V::<S>::LEN;
@@ -304,9 +302,9 @@ fn prepare<S: Simd>(simd: S, [theta_i, signed_theta_r, dphi]: [V<S>; 3], block: 
     cos_beta_sq.store_slice(&mut block.cos_beta_sq[first..end]);
     cos_beta_sq.sqrt().store_slice(&mut block.cos_beta[first..end]);
     tan_alpha_sq.store_slice(&mut block.tan_alpha_sq[first..end]);
-    over_open.max(grooves).store_slice(&mut block.over_geometric[first..end]);
-    over_open.store_slice(&mut block.over_open[first..end]);
-    (ln_1p(simd, tangents) * -0.5).store_slice(&mut block.ln_cosines[first..end]);
+    (over_open.max(grooves) * cos_alpha_sq).store_slice(&mut block.over_geometric[first..end]);
+    (over_open * cos_alpha_sq).store_slice(&mut block.over_open[first..end]);
+    ln(simd, cosines, cosines_minus_1).store_slice(&mut block.ln_cosines[first..end]);
     (reduced * reduced * 0.5).store_slice(&mut block.half_theta_r_sq[first..end]);
     good
 }

@@ -8,7 +8,7 @@
 //! (`assets/reference/make_batch_polynomials.py`). The reductions are W. J. Cody and W. Waite, *Software Manual for the Elementary
 //! Functions* (1980), chapters 5 and 6.
 
-use crate::model::batch::lanes::{Bits, V, number};
+use crate::model::batch::lanes::{Bits, V, choose, number};
 use fearless_simd::prelude::*;
 
 /// 1.5 · 2⁵²: adding it leaves the nearest whole number in the low bits.
@@ -65,12 +65,32 @@ pub(crate) fn exp<S: Simd>(simd: S, x: V<S>) -> V<S> {
 /// ln(1 + w) for 0 ≤ w < 10³⁰⁰.
 #[inline(always)]
 pub(crate) fn ln_1p<S: Simd>(simd: S, w: V<S>) -> V<S> {
+    let [m, two_to_minus_m] = exponent(simd, w + 1.0);
+    ln_of_parts(simd, m, two_to_minus_m.mul_add(w, two_to_minus_m - 1.0))
+}
+
+/// ln y for 10⁻³⁰⁰ < y < 10³⁰⁰, given y − 1 with all its digits where that is small.
+#[inline(always)]
+pub(crate) fn ln<S: Simd>(simd: S, y: V<S>, y_minus_1: V<S>) -> V<S> {
+    let [m, two_to_minus_m] = exponent(simd, y);
+    let f = two_to_minus_m.mul_add(y, number(simd, -1.0));
+    ln_of_parts(simd, m, choose::<S>(m.simd_eq(number(simd, 0.0)), y_minus_1, f))
+}
+
+/// m and 2^−m, with √½ ≤ 2^−m y < √2.
+#[inline(always)]
+fn exponent<S: Simd>(simd: S, y: V<S>) -> [V<S>; 2] {
+    // m + 1023 stands where an exponent stands.
+    let biased = y.to_bits() + (1.0_f64.to_bits() - std::f64::consts::FRAC_1_SQRT_2.to_bits());
+    let m = V::<S>::from_bits((biased >> 52_u32) | TWO_52.to_bits()) - (TWO_52 + 1023.0);
+    let twice_the_bias: Bits<S> = (2 * 1.0_f64.to_bits()).simd_into(simd);
+    [m, V::<S>::from_bits(twice_the_bias - (biased & !(u64::MAX >> 12)))]
+}
+
+/// ln(2^m (1 + f)) = m ln 2 + ln(1 + f).
+#[inline(always)]
+fn ln_of_parts<S: Simd>(simd: S, m: V<S>, f: V<S>) -> V<S> {
     let of = |value| number(simd, value);
-    let above_root_half = (w + 1.0).to_bits() - std::f64::consts::FRAC_1_SQRT_2.to_bits();
-    let one: Bits<S> = 1.0_f64.to_bits().simd_into(simd);
-    let two_to_minus_m = V::<S>::from_bits(one - (above_root_half & !(u64::MAX >> 12)));
-    let m = V::<S>::from_bits((above_root_half >> 52_u32) | TWO_52.to_bits()) - TWO_52;
-    let f = two_to_minus_m.mul_add(w, two_to_minus_m - 1.0);
     let s = f / (f + 2.0);
     let z = s * s;
     let z2 = z * z;

@@ -47,11 +47,12 @@ impl Runner {
     }
 }
 
-/// DoLP, BRDF and its specular part of prepared points that no [`crate::model::Batch`] holds, on the calling thread.
-/// `reflection` is the scalar form at the point of that number.
+/// DoLP, BRDF and its specular part of so many prepared points that no [`crate::model::Batch`] holds, on the calling thread.
+/// A column that is not wanted is empty; `reflection` is the scalar form at the point of that number.
 pub(crate) fn radiances_of_blocks(
     surface: &Pbrdf,
     blocks: &[PointBlock],
+    count: usize,
     columns: [&mut [f64]; 3],
     reflection: &(dyn Fn(usize) -> Reflection + Sync),
 ) {
@@ -59,7 +60,7 @@ pub(crate) fn radiances_of_blocks(
         let reflection = reflection(point);
         [reflection.dolp, reflection.brdf, reflection.specular]
     };
-    let run = KernelRun { blocks, count: columns[0].len(), columns, first: 0, scalar: &scalar };
+    let run = KernelRun { blocks, count, columns, first: 0, scalar: &scalar };
     let runner = Runner { instructions: Instructions::Widest, single_threaded: true };
     match Coefficients::new(surface).map(Coefficients::without_zero_terms) {
         Some(of) => run_with_terms!(runner, run, Both, of.model, &of),

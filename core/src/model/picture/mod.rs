@@ -161,7 +161,7 @@ fn add_lamp(pixels: &[Pixel], surface: &Pbrdf, lamp: &Lamp, stokes: &mut [[f64; 
         let geometry = lamp.geometry(pixels[lit[point].0].normal);
         geometry.map_or_else(Reflection::default, |geometry| surface.reflection(&Facet::new(geometry)))
     };
-    radiances_of_blocks(surface, &blocks(&points), [&mut dolp, &mut brdf, &mut specular], &reflection);
+    radiances_of_blocks(surface, &blocks(&points), lit.len(), [&mut dolp, &mut brdf, &mut specular], &reflection);
     let (along_x, along_diagonal) = lamp.polarisation();
     for (point, (index, lit)) in lit.iter().enumerate() {
         let polarised = lit.cos_i * mul_zero_absorbing(dolp[point], brdf[point]);
