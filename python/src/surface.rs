@@ -112,28 +112,32 @@ fn in_order<T>(outcomes: Vec<Result<T, AngleColumnsError>>) -> Result<Vec<T>, (u
     outcomes.into_iter().enumerate().map(|(number, outcome)| outcome.map_err(|error| (number * BLOCK, error))).collect()
 }
 
-/// Columns of values at that many points as arrays, filled block by block side by side; `evaluate` fills the columns of a block of that
-/// number.
-fn arrays_of<'py>(
+/// Columns of values at that many points, one behind the other, filled block by block side by side; `evaluate` fills the columns of a
+/// block of that number.
+fn columns_of<'py>(
     py: Python<'py>,
     shape: &[usize],
     points: usize,
     wanted: &Wanted,
     evaluate: impl Fn(usize, Vec<&mut [f64]>) -> Result<(), AngleColumnsError> + Sync,
-) -> PyResult<Vec<Bound<'py, PyArray1<f64>>>> {
-    // numpy asks the system for large pages, which a `Vec` does not: half the time of an evaluation would go into small ones.
-    let empty = py.import("numpy")?.getattr("empty")?;
+) -> PyResult<Bound<'py, PyArray1<f64>>> {
     let widths = wanted.widths();
-    let make = |width: &usize| Ok(empty.call1((width * points,))?.cast_into::<PyArray1<f64>>()?);
-    let arrays = widths.iter().map(make).collect::<PyResult<Vec<_>>>()?;
-    let mut borrowed: Vec<_> = arrays.iter().map(PyArrayMethods::readwrite).collect();
-    let columns = borrowed.iter_mut().map(|array| array.as_slice_mut()).collect::<Result<Vec<_>, _>>()?;
-    let mut parts: Vec<_> = columns.into_iter().zip(&widths).map(|(column, width)| column.chunks_mut(width * BLOCK)).collect();
+    // numpy asks the system for large pages, which a `Vec` does not: half the time of an evaluation would go into small ones. One array
+    // for all, because the C library gives several back to the system at once, and takes new pages for the next.
+    let numbers = points * widths.iter().sum::<usize>();
+    let array = py.import("numpy")?.getattr("empty")?.call1((numbers,))?.cast_into::<PyArray1<f64>>()?;
+    let mut borrowed = array.readwrite();
+    let mut rest = borrowed.as_slice_mut()?;
+    let mut parts = Vec::new();
+    for width in &widths {
+        let column = rest.split_off_mut(..width * points).unwrap_or_default();
+        parts.push(column.chunks_mut(width * BLOCK));
+    }
     let blocks: Vec<Vec<&mut [f64]>> = (0..points.div_ceil(BLOCK)).map(|_| parts.iter_mut().filter_map(Iterator::next).collect()).collect();
     let outcome = py.detach(|| in_order(blocks.into_par_iter().enumerate().map(|(number, out)| evaluate(number, out)).collect()));
     drop(borrowed);
     outcome.map_err(|(before, error)| exception(error, before, shape))?;
-    Ok(arrays)
+    Ok(array)
 }
 
 /// BRDF, DoLP and its specular part, which is empty where no term is wanted; and the other columns.
@@ -161,7 +165,7 @@ impl Question {
 }
 
 /// Columns of values at angles in degrees, of points in an array of that shape: BRDF, DoLP; on request specular, diffuse and volume part,
-/// the Mueller matrix (16 numbers a point), derivatives of the BRDF, then of DoLP.
+/// the Mueller matrix (16 numbers a point), derivatives of the BRDF, then of DoLP. All in one array, one behind the other.
 #[pyfunction]
 pub fn evaluate<'py>(
     py: Python<'py>,
@@ -170,11 +174,11 @@ pub fn evaluate<'py>(
     theta_r: PyReadonlyArray1<'py, f64>,
     dphi: PyReadonlyArray1<'py, f64>,
     shape: Vec<usize>,
-) -> PyResult<Vec<Bound<'py, PyArray1<f64>>>> {
+) -> PyResult<Bound<'py, PyArray1<f64>>> {
     let (surface, wanted) = question.surface_and_wanted()?;
     let (theta_i, theta_r, dphi) = (theta_i.as_slice()?, theta_r.as_slice()?, dphi.as_slice()?);
     let angles = AngleColumns::new(theta_i, theta_r, dphi).map_err(refused)?;
-    arrays_of(py, &shape, angles.len(), &wanted, |number, out| {
+    columns_of(py, &shape, angles.len(), &wanted, |number, out| {
         let part = angles.part(points_of_block(number, angles.len()));
         let (radiances, rest) = radiance_columns(out, &wanted);
         part.radiances(&surface, radiances)?;
@@ -207,9 +211,9 @@ impl Prepared {
     }
 
     /// As `evaluate` has it.
-    fn evaluate<'py>(&self, py: Python<'py>, question: Question) -> PyResult<Vec<Bound<'py, PyArray1<f64>>>> {
+    fn evaluate<'py>(&self, py: Python<'py>, question: Question) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let (surface, wanted) = question.surface_and_wanted()?;
-        arrays_of(py, &[], self.points, &wanted, |number, out| {
+        columns_of(py, &[], self.points, &wanted, |number, out| {
             let prepared = &self.blocks[number];
             let (radiances, rest) = radiance_columns(out, &wanted);
             prepared.radiances(&surface, radiances)?;

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from types import SimpleNamespace
@@ -140,11 +141,15 @@ def _question(
     return SimpleNamespace(model=model, parameters=values, terms=bool(terms), mueller=bool(mueller), gradients=by), by
 
 
-def _evaluation(columns: list[Array], shape: tuple[int, ...], terms: Any, mueller: Any, by: list[str]) -> Evaluation:
-    taken = iter(columns)
+def _evaluation(numbers: Array, shape: tuple[int, ...], terms: Any, mueller: Any, by: list[str]) -> Evaluation:
+    """Of columns that stand one behind the other."""
+    begin = 0
 
     def column(of: tuple[int, ...] = shape) -> Any:
-        return next(taken).reshape(of)[()]
+        nonlocal begin
+        end = begin + math.prod(of)
+        begin, values = end, numbers[begin:end]
+        return values.reshape(of)[()]
 
     brdf, dolp = column(), column()
     parts = [column() if terms else None for _ in range(3)]
