@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 """Frame times while a slider is dragged, as eframe's cpu_usage has them: logic and drawing without the swap of buffers.
 
-    tests/frame_times.py target/release/pbrdf-explorer [MEASUREMENTS POINTS PINS [PANE ...]]
+    tests/frame_times.py target/release/pbrdf-explorer [--lamp] [MEASUREMENTS POINTS PINS [PANE ...]]
 
 Opens that many simulated measurements of so many points with so many pinned surfaces in a window of 1280 x 800 under a
 virtual display, drags a slider (which, it says) for seven seconds, and prints median and 99th percentile of the last five. Without
 numbers: three measurements of 27 points and ten of 500, with two pins each. PANE brings further panes to the screen, beside
-DoLP and lobes. Needs Xvfb, xdotool and scrot. GALLIUM_NOOP=1 in the environment leaves out Mesa's software rasteriser.
+DoLP and lobes. With --lamp and the pane "picture" as the last one, the lamp is turned in the picture in place of a slider. Needs Xvfb, xdotool and scrot. GALLIUM_NOOP=1 in the environment leaves out Mesa's software rasteriser.
 """
 
 import json
@@ -23,6 +23,9 @@ TRUTH = {"n": 2.07, "k": 2.9, "sigma": 0.35, "ks": 1.0, "kd": 0.12, "kv": 0.2, "
 GRIDS = {27: ("30,40,50", "20:60:5"), 500: ("10:82:8", "0:85.75:1.75")}
 # Where a slider lies, by the number of measurements in the list over it, with two pins in theirs.
 SLIDERS = {3: (100, 400), 10: (100, 470)}
+# The middle of the sphere with DoLP and lobes above it, and how far to either side the lamp is dragged.
+SPHERE = (442, 700)
+LAMP = 40
 SECONDS = 7.0
 
 
@@ -58,7 +61,7 @@ def xdotool(*arguments):
     return subprocess.run(["xdotool", *map(str, arguments)], check=True, capture_output=True, text=True).stdout.split()
 
 
-def measure(program, measurements, points, pins, panes):
+def measure(program, measurements, points, pins, panes, lamp):
     """Medians and percentiles in the words of the program."""
     folder = Path(tempfile.mkdtemp())
     places = {"HOME": folder, "XDG_CONFIG_HOME": folder / "config", "XDG_DATA_HOME": folder / "data", "XDG_RUNTIME_DIR": folder}
@@ -81,6 +84,8 @@ def measure(program, measurements, points, pins, panes):
         time.sleep(2)
         subprocess.run(["scrot", "-o", folder / "before.png"], check=True)
         x, y = SLIDERS[measurements]
+        if lamp:
+            x, y = SPHERE[0] - LAMP, SPHERE[1]
         xdotool("mousemove", x, y, "mousedown", 1)
         begun, step = time.monotonic(), 0
         while time.monotonic() - begun < SECONDS:
@@ -94,7 +99,12 @@ def measure(program, measurements, points, pins, panes):
         window.kill()
         xvfb.terminate()
     kept = max((folder / "data/pbrdf-explorer/work").glob("*.pbrdf.json"), key=lambda path: path.stat().st_mtime)
-    now = json.loads(kept.read_text())["settings"]["parameters"]
+    now = json.loads(kept.read_text())["settings"]
+    if lamp:
+        if now.get("picture", {}).get("azimuth", 135.0) == 135.0:
+            sys.exit(f"the lamp was not turned: look at {folder}/before.png and mend SPHERE")
+        return f"lamp: {said.strip()}"
+    now = now["parameters"]
     moved = [name for name in TRUTH if now[name] != TRUTH[name]]
     if len(moved) != 1:
         sys.exit(f"no slider was dragged ({moved}): look at {folder}/before.png and mend SLIDERS")
@@ -102,13 +112,14 @@ def measure(program, measurements, points, pins, panes):
 
 
 def main():
-    program, *rest = sys.argv[1:]
+    lamp = "--lamp" in sys.argv
+    program, *rest = [argument for argument in sys.argv[1:] if argument != "--lamp"]
     program = str(Path(program).resolve())
     cases = [(3, 27, 2), (10, 500, 2)]
     if rest:
         cases = [tuple(map(int, rest[:3]))]
     for measurements, points, pins in cases:
-        print(f"{measurements} measurements of {points} points, {pins} pins:", measure(program, measurements, points, pins, rest[3:]), flush=True)
+        print(f"{measurements} measurements of {points} points, {pins} pins:", measure(program, measurements, points, pins, rest[3:], lamp), flush=True)
 
 
 if __name__ == "__main__":

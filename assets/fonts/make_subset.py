@@ -18,7 +18,7 @@ import subprocess
 from fontTools import subset
 
 ASSETS = pathlib.Path(__file__).resolve().parent.parent
-SYMBOLS = "⁻∇→←↑↓↔↺⇒⇔′″∝∈✓✗▲▼▶◀■□●○★⇧⏎−⁵⁶⁷⁸⁹⁺₃₄₅₆₇₈₉ₖₛ∥⊥"
+SYMBOLS = "⁻∇→←↑↓↔↺↶↷◧◨⇒⇔′″∝∈✓✗▲▼▶◀■□●○★⇧⏎−⁵⁶⁷⁸⁹⁺₃₄₅₆₇₈₉ₖₛ∥⊥"
 # Western Europe's letters, Greek, general punctuation, superscripts, arrows, mathematics, technical signs, shapes. Other letters of Europe
 # come from the font of figures.
 RANGES = [(0x20, 0x7E), (0xA0, 0xFF), (0x2000, 0x206F), (0x2070, 0x209C), (0x20AC, 0x20AC), (0x2100, 0x214F), (0x2190, 0x23FF), (0x25A0, 0x27BF)]

@@ -13,14 +13,18 @@ pub fn axis<'a>(hints: AxisHints<'a>, ui: &Ui, title: &str, format: impl Fn(f64,
 }
 
 /// Of the wanted gap, what marks may be apart where there would be a single one, which tells no scale.
-const CLOSER: f64 = 0.75;
+const CLOSER: f64 = 0.6;
+
+/// What is at least between marks, in the plot's smallest spacing: a line of text.
+const LINE: f64 = 1.65;
 
 /// Marks 1, 2 or 5 times a power of ten apart: at least `spread` times the plot's smallest spacing,
 /// and at least `least`.
 pub fn marks(input: &GridInput, spread: f64, least: f64) -> Vec<GridMark> {
     let wanted = (spread * input.base_step_size).max(least);
     let marks = marks_apart(input, wanted);
-    if marks.len() < 2 { marks_apart(input, (CLOSER * wanted).max(least)) } else { marks }
+    let closer = (CLOSER * wanted).max(LINE.min(spread) * input.base_step_size);
+    if marks.len() < 2 { marks_apart(input, closer.max(least)) } else { marks }
 }
 
 fn marks_apart(input: &GridInput, wanted: f64) -> Vec<GridMark> {
@@ -44,13 +48,16 @@ fn marks_apart(input: &GridInput, wanted: f64) -> Vec<GridMark> {
 /// A number with as many decimals as the step between marks has; in powers of ten where those would
 /// be many.
 pub fn decimal(value: f64, step_size: f64) -> String {
-    // Adding 0 turns -0 into 0.
-    let value = value + 0.0;
+    let text = unsigned(value.abs(), step_size);
+    if value < 0.0 { format!("−{text}") } else { text }
+}
+
+fn unsigned(value: f64, step_size: f64) -> String {
     if !(1e-3..1e5).contains(&step_size) {
         if value == 0.0 {
             return "0".to_owned();
         }
-        let decade = |x: f64| libm::log10(x.abs() * (1.0 + 1e-9)).floor();
+        let decade = |x: f64| libm::log10(x * (1.0 + 1e-9)).floor();
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number of digits from 0 to 12")]
         let digits = (decade(value) - decade(step_size)).clamp(0.0, 12.0) as usize;
         return format!("{value:.digits$e}");
@@ -95,41 +102,42 @@ fn round_values(input: &GridInput, wanted: f64) -> Vec<GridMark> {
     marks(&of_values, 1.0, 0.0).into_iter().filter(|mark| mark.value > 0.0).map(at).collect()
 }
 
-/// A value at a mark of its decimal logarithm: a power of ten, or a number where marks are closer
-/// than decades, with the digits that tell it from the next mark.
-pub fn logarithmic(exponent: f64, step_size: f64) -> String {
-    if step_size >= 1.0 {
-        return power_of_ten(exponent, step_size);
+/// Whether the numbers of a logarithmic axis between those exponents are written out: on one axis all of them, or none.
+pub fn is_written_out(low: f64, high: f64) -> bool {
+    (-4.0..4.5).contains(&low) && (-3.0..4.5).contains(&high)
+}
+
+/// A value at a mark of its decimal logarithm, with the digits that tell it from the next mark; as a power of ten, or written
+/// out.
+pub fn logarithmic(exponent: f64, step_size: f64, written_out: bool) -> String {
+    if step_size >= 1.0 && !written_out {
+        return format!("1e{}", exponent + 0.0);
     }
     let value = libm::exp10(exponent);
-    // The next mark is that much larger.
-    let gap = value * (libm::exp10(step_size) - 1.0);
+    // The next mark is that much larger; where they are decades apart, all are powers of ten.
+    let gap = value * (libm::exp10(step_size) - 1.0).min(1.0);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number of digits from 0 to 12")]
     let digits = |size: f64| (-libm::log10(gap / size * (1.0 + 1e-9)).floor()).clamp(0.0, 12.0) as usize;
     let short = |digits: &str| {
         let has_point = digits.contains('.');
         if has_point { digits.trim_end_matches('0').trim_end_matches('.').to_owned() } else { digits.to_owned() }
     };
-    if (1e-3..1e4).contains(&value) {
+    if written_out {
         return short(&format!("{value:.*}", digits(1.0)));
     }
     let scientific = format!("{value:.*e}", digits(libm::exp10(exponent.floor())));
     scientific.split_once('e').map_or_else(|| scientific.clone(), |(digits, exponent)| format!("{}e{exponent}", short(digits)))
 }
 
-/// A power of ten.
-pub fn power_of_ten(exponent: f64, _step_size: f64) -> String {
-    format!("1e{}", exponent + 0.0)
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{decades, logarithmic, marks};
+    use super::{decades, is_written_out, logarithmic, marks};
     use egui_plot::GridInput;
 
     fn labels(low: f64, high: f64, base_step_size: f64) -> Vec<String> {
         let marks = decades(&GridInput { bounds: (low, high), base_step_size }, 5.0);
-        marks.iter().map(|mark| logarithmic(mark.value, mark.step_size)).collect()
+        let written_out = is_written_out(low, high);
+        marks.iter().map(|mark| logarithmic(mark.value, mark.step_size, written_out)).collect()
     }
 
     #[test]
@@ -139,6 +147,9 @@ mod tests {
         assert_eq!(labels(-16.0, 1.0, 1.0), ["1e-15", "1e-10", "1e-5", "1e0"]);
         // Closer than those marks: round values, not values of round logarithms.
         assert_eq!(labels(-3.46, -3.29, 0.005), ["3.5e-4", "4e-4", "4.5e-4", "5e-4"]);
+        // One way of writing on one axis.
+        assert_eq!(labels(-1.5, 1.0, 0.15), ["0.1", "1", "10"]);
+        assert_eq!(labels(-3.0106, -2.9626, 0.002), ["0.00098", "0.001", "0.00102", "0.00104", "0.00106", "0.00108"]);
     }
 
     #[test]
@@ -146,6 +157,10 @@ mod tests {
         // A strip of residuals to ±0.0162, 53 points high.
         let input = GridInput { bounds: (-0.0162, 0.0162), base_step_size: 8.0 * 0.0324 / 53.0 };
         let at: Vec<f64> = marks(&input, 2.2, 0.0).iter().map(|mark| mark.value).collect();
+        assert_eq!(at, [-0.01, 0.0, 0.01]);
+        // One of 64 points, where there is room for more.
+        let input = GridInput { base_step_size: 8.0 * 0.0324 / 64.0, ..input };
+        let at: Vec<f64> = marks(&input, 3.5, 0.0).iter().map(|mark| mark.value).collect();
         assert_eq!(at, [-0.01, 0.0, 0.01]);
     }
 

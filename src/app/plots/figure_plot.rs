@@ -183,18 +183,25 @@ impl PanelPlot {
         let Self { content: Some(Content { title, x, y, map, items, equal_aspect }), axes, texture, reach } = self else { return None };
         map.iter_mut().for_each(|map| map.upload(texture, ui));
         let (x, y, map) = (&*x, &*y, map.as_ref());
-        let width = ui.available_width() - if map.is_some() { BAR_ROOM } else { 0.0 };
+        // Something above that was too wide does not make a plot run out of its pane.
+        let width = ui.available_width().min(ui.clip_rect().right() - ui.cursor().left()) - if map.is_some() { BAR_ROOM } else { 0.0 };
         let dark = ui.visuals().dark_mode;
         let x_title = if title.is_empty() { x.title.clone() } else { tr!("{0}  at {1}", x.title, title) };
         let x_axis = axis(AxisHints::new_x(), ui, &x_title, |at, step| x.label(at, step)).min_thickness(BELOW);
         let is_strip = style.place == PanelPlace::Strip;
         let below = if style.place == PanelPlace::OverStrip { 0.0 } else { BELOW };
-        let in_corner = is_strip || !fits_upright(&y.title, style.height - below, ui);
+        let is_above = is_strip || !fits_upright(&y.title, style.height - below, ui);
+        let height = if is_above && !is_strip {
+            ui.add_space(ABOVE);
+            style.height - ABOVE - ui.spacing().item_spacing.y
+        } else {
+            style.height
+        };
         let y_axis =
-            axis(AxisHints::new_y(), ui, if in_corner { "" } else { &y.title }, |at, step| y.label(at, step)).min_thickness(style.left);
+            axis(AxisHints::new_y(), ui, if is_above { "" } else { &y.title }, |at, step| y.label(at, step)).min_thickness(style.left);
         let ranges =
-            if *equal_aspect { of_equal_units([x.range, y.range], width - style.left, style.height - BELOW) } else { [x.range, y.range] };
-        let figure = plot(style.id, ui, style.height, x_axis, y_axis)
+            if *equal_aspect { of_equal_units([x.range, y.range], width - style.left, height - BELOW) } else { [x.range, y.range] };
+        let figure = plot(style.id, ui, height, x_axis, y_axis)
             .width(width.max(80.0))
             .show_grid(map.is_none())
             .x_grid_spacer(|input| x.marks(&input, 7.0))
@@ -227,10 +234,8 @@ impl PanelPlot {
             ui.ctx().request_repaint();
         }
         let name = style.name.clone().unwrap_or_else(|| tr!("Plot: {0} against {1}", y.title, x.title));
-        if is_strip {
+        if is_above {
             title_above(&y.title, response.response.rect, ui);
-        } else if in_corner {
-            corner_title(&y.title, response.response.rect, Align2::LEFT_TOP, ui);
         }
         axes.track_interaction(&response, &name, ui);
         map.into_iter().for_each(|map| map.bar_ui(response.response.rect, ui));
@@ -276,10 +281,13 @@ fn fits_upright(title: &str, length: f32, ui: &Ui) -> bool {
     ui.painter().layout_no_wrap(title.to_owned(), font, ui.visuals().text_color()).size().x <= length
 }
 
-/// Letters of a title above a strip or in a corner, in points.
+/// Letters of a title above a plot or in a corner, in points.
 const SMALL: f32 = 11.0;
 
-/// What is along the vertical axis of a strip, in the gap above it, where it covers no points.
+/// What a title above a plot takes, in points.
+const ABOVE: f32 = 10.0;
+
+/// What is along the vertical axis of a strip or a low plot, in the gap above it, where it covers no points.
 fn title_above(title: &str, plot: Rect, ui: &Ui) {
     let at = plot.left_top() + vec2(0.0, -1.0);
     ui.painter().text(at, Align2::LEFT_BOTTOM, title, FontId::proportional(SMALL), ui.visuals().text_color());

@@ -1,6 +1,6 @@
 //! An axis of a figure on the screen: where values lie along it, its ends and its marks.
 
-use crate::app::plots::axis::{decades, decimal, logarithmic, marks};
+use crate::app::plots::axis::{decades, decimal, is_written_out, logarithmic, marks};
 use crate::app::plots::range::Range;
 use crate::figure::{Axis, Scale};
 use egui_plot::{GridInput, GridMark};
@@ -68,7 +68,7 @@ impl PlotAxis {
                 let nearest = ticks.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
                 nearest.map_or_else(String::new, |(_, label)| label.clone())
             }
-            None if self.log => logarithmic(coordinate, step_size),
+            None if self.log => logarithmic(coordinate, step_size, is_written_out(self.range.low, self.range.high)),
             None => decimal(coordinate, step_size),
         }
     }

@@ -45,7 +45,7 @@ fn unit_text(field: Field, unit: Unit) -> String {
         (Unit::Native, Field::Wavelength) => "nm".to_owned(),
         (Unit::Native, Field::ThetaI | Field::ThetaR | Field::Dphi | Field::PhiI | Field::PhiR) => tr!("degrees"),
         (Unit::Native, Field::Dolp | Field::DolpSigma) => tr!("fraction, 0 to 1"),
-        (Unit::Native, Field::Brdf | Field::BrdfSigma) => "1/sr".to_owned(),
+        (Unit::Native, Field::Brdf | Field::BrdfSigma) => "sr⁻¹".to_owned(),
         (Unit::Native, _) => String::new(),
     }
 }
@@ -215,7 +215,7 @@ fn answers_ui(options: &mut TableOptions, table: &TableSample, ui: &mut Ui) {
 fn brdf_text(meaning: Option<BrdfMeaning>) -> String {
     match meaning {
         None => tr!("as the header says"),
-        Some(BrdfMeaning::Brdf) => tr!("BRDF in 1/sr"),
+        Some(BrdfMeaning::Brdf) => tr!("BRDF in sr⁻¹"),
         Some(BrdfMeaning::BrdfCos) => tr!("BRDF times cos θr"),
         Some(BrdfMeaning::Factor) => tr!("reflectance factor, π times the BRDF"),
     }

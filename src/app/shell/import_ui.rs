@@ -227,7 +227,7 @@ fn rows_ui(imported: &Imported, is_all: bool, ui: &mut Ui) {
     let rows = imported.measurements.iter().flat_map(|measurement| &measurement.rows);
     ui.weak(if is_all { tr!("The first of {} rows as they will be:", imported.rows()) } else { tr!("The first rows as they will be:") });
     Grid::new("answer").num_columns(5).spacing([18.0, 2.0]).show(ui, |ui| {
-        for heading in ["θi", "θr", "Δφ", "DoLP", "BRDF / (1/sr)"] {
+        for heading in ["θi", "θr", "Δφ", "DoLP", "BRDF / sr⁻¹"] {
             ui.strong(heading);
         }
         ui.end_row();

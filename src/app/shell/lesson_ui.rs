@@ -2,6 +2,7 @@
 
 use crate::app::shell::app::App;
 use crate::app::shell::docking::panes_ui;
+use crate::app::shell::icons::{Icon, icon_ui};
 use crate::app::shell::readout_ui::readout_ui;
 use crate::app::shell::status_bar::toasts_ui;
 use crate::app::text::i18n;
@@ -54,6 +55,10 @@ fn lesson_panel_ui(app: &mut App, ui: &mut Ui) {
     let buttons = if width > ONE_LINE { 1.0 } else { 3.0 } * (ui.spacing().interact_size.y + gap);
     let readout = ui.text_style_height(&TextStyle::Body) + gap;
     let window = ui.ctx().content_rect().height();
+    if app.lessons.is_folded {
+        egui::Panel::bottom("folded lesson").resizable(false).show(ui, |ui| lesson_ui(app, ui));
+        return;
+    }
     let needed = (buttons + readout + text).min(MOST * window).max(if is_low(ui) { 0.0 } else { HEIGHT });
     let id = egui::Id::unique(("lesson", is_low(ui)));
     let panel = egui::Panel::bottom(id).resizable(true).default_size(needed);
@@ -70,6 +75,7 @@ fn lesson_ui(app: &mut App, ui: &mut Ui) {
     let code = i18n::current().code();
     let count = lesson.steps.len();
     let is_wide = ui.available_width() > ONE_LINE;
+    let mut is_folded = lessons.is_folded;
     ui.spacing_mut().item_spacing.y = gap(ui);
     ui.horizontal(|ui| {
         if is_wide {
@@ -83,6 +89,7 @@ fn lesson_ui(app: &mut App, ui: &mut Ui) {
         }
         let rest = egui::vec2(ui.available_width(), ui.spacing().interact_size.y);
         ui.allocate_ui_with_layout(rest, egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            fold_ui(&mut is_folded, ui);
             ui.weak(format!("{}/{count}", index + 1));
             ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
                 let heading = step.heading.in_language(code);
@@ -104,6 +111,10 @@ fn lesson_ui(app: &mut App, ui: &mut Ui) {
     if !dock.is_presented() {
         readout_ui(derived, ui);
     }
+    if lessons.is_folded {
+        lessons.is_folded = is_folded;
+        return;
+    }
     // A bar that is seen before the pointer comes near: text below the edge would be missed.
     ui.spacing_mut().scroll = egui::style::ScrollStyle::solid();
     ScrollArea::vertical().auto_shrink([false; 2]).show(ui, |ui| {
@@ -124,6 +135,15 @@ fn lesson_ui(app: &mut App, ui: &mut Ui) {
             }
         });
     });
+    lessons.is_folded = is_folded;
+}
+
+/// Takes the text away, so that plots have its room, and brings it back.
+fn fold_ui(is_folded: &mut bool, ui: &mut Ui) {
+    let (icon, name) = if *is_folded { (Icon::Unfold, tr!("Show the text")) } else { (Icon::Fold, tr!("Only the plots, without the text")) };
+    if icon_ui(icon, &name, None, ui).clicked() {
+        *is_folded = !*is_folded;
+    }
 }
 
 /// Between lines of the panel.

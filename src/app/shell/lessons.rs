@@ -46,6 +46,8 @@ const LARGEST: u64 = 1 << 18;
 pub struct Lessons {
     pub all: Vec<Lesson>,
     pub session: Option<Box<LessonSession>>,
+    /// Whether the text of the open lesson is away, so that plots have its room.
+    pub is_folded: bool,
 }
 
 /// The lesson that is open, and the user's own work meanwhile.
@@ -72,7 +74,7 @@ impl Lessons {
                 Err(reason) => faults.push(tr!("{0} is no lesson: {1}.", path.display(), reason)),
             }
         }
-        (Self { all, session: None }, faults)
+        (Self { all, ..Self::default() }, faults)
     }
 
     /// The ends of each slider: as the open step wants them, else its own.

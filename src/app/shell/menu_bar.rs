@@ -5,9 +5,11 @@ use crate::app::shell::app::App;
 use crate::app::shell::commands;
 use crate::app::shell::commands::{Availability, Command, Menu};
 use crate::app::shell::dialogs::Dialogs;
+use crate::app::shell::icons::{ICON, Icon, icon_ui};
 use crate::app::shell::path_entry::path_in;
 use crate::app::views::action::{Action, WindowAction};
 use crate::app::views::note_stop;
+use crate::app::work::settings::SidePanel;
 use egui::containers::menu::MenuConfig;
 use egui::{Id, Key, Modifiers, Popup, PopupCloseBehavior, SetOpenCommand, Ui, UiKind, UiStackInfo};
 use tr::tr;
@@ -25,22 +27,51 @@ const LETTERS: [(Menu, Key); 7] = [
 
 pub fn menu_ui(app: &mut App, ui: &mut Ui) {
     egui::MenuBar::new().ui(ui, |ui| {
-        for (menu, letter) in LETTERS {
-            let f10 = menu == Menu::File && ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::F10));
-            let by_key = f10 || ui.input_mut(|input| input.consume_key(Modifiers::ALT, letter));
-            let button = bar_menu_ui(menu.name(), by_key, ui, |ui| match menu {
-                Menu::File => file_ui(app, ui),
-                Menu::View => view_ui(app, ui),
-                _ => {
-                    let items = commands::items(app);
-                    items_ui(&items, menu, &mut app.actions, ui);
-                }
-            });
-            if menu == Menu::File {
-                note_stop(ui.ctx(), button);
-            }
-        }
+        menus_ui(app, ui);
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| tools_ui(app, ui));
     });
+}
+
+/// What the icons at the end of the bar order, from the right: whether it is on, if it is a switch, and whether it is possible.
+fn tools_ui(app: &mut App, ui: &mut Ui) {
+    let panels = &app.window.panels;
+    let panel = |panel| Action::Window(WindowAction::TogglePanel(panel));
+    let tools = [
+        (Icon::Present, tr!("Presentation (F11): the panes on screen, large, with a few sliders"), Action::Window(WindowAction::Present), None, true),
+        (Icon::RightPanel, tr!("Panel of fits beside the plots"), panel(SidePanel::Fit), Some(panels.fit), true),
+        (Icon::LeftPanel, tr!("Panel of parameters beside the plots"), panel(SidePanel::Parameters), Some(panels.parameters), true),
+        (Icon::Redo, tr!("Redo the last step"), Action::Redo, None, app.work.can_redo()),
+        (Icon::Undo, tr!("Undo the last step"), Action::Undo, None, app.work.can_undo()),
+    ];
+    #[expect(clippy::cast_precision_loss, reason = "a number of icons")]
+    let needed = tools.len() as f32 * (ICON + ui.spacing().item_spacing.x);
+    if ui.available_width() < needed {
+        return;
+    }
+    for (icon, name, action, is_on, is_possible) in tools {
+        let button = ui.add_enabled_ui(is_possible, |ui| icon_ui(icon, &name, is_on, ui)).inner;
+        if button.clicked() {
+            app.actions.push(action);
+        }
+    }
+}
+
+fn menus_ui(app: &mut App, ui: &mut Ui) {
+    for (menu, letter) in LETTERS {
+        let f10 = menu == Menu::File && ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::F10));
+        let by_key = f10 || ui.input_mut(|input| input.consume_key(Modifiers::ALT, letter));
+        let button = bar_menu_ui(menu.name(), by_key, ui, |ui| match menu {
+            Menu::File => file_ui(app, ui),
+            Menu::View => view_ui(app, ui),
+            _ => {
+                let items = commands::items(app);
+                items_ui(&items, menu, &mut app.actions, ui);
+            }
+        });
+        if menu == Menu::File {
+            note_stop(ui.ctx(), button);
+        }
+    }
 }
 
 /// Of a menu to the lower edge of the window, in points.

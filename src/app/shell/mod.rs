@@ -8,6 +8,7 @@ pub mod docking;
 pub mod file_dialogs;
 mod frame_times;
 mod help_ui;
+mod icons;
 mod import_dialog;
 mod import_picture_ui;
 mod import_table_ui;

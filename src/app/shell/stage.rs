@@ -89,7 +89,7 @@ fn cells(count: usize, room: Rect) -> Vec<Rect> {
 pub fn single_ui(pane: PaneId, is_filled: bool, open: Vec<PaneId>, views: &mut Views, cx: &mut Cx<'_>, ui: &mut Ui) {
     ui.horizontal(|ui| {
         let gap = ui.spacing().item_spacing.x;
-        let buttons = [spec(pane).has_options.then(|| tr!("Show")), is_filled.then(|| tr!("Back"))];
+        let buttons = [has_menu(pane, views, cx).then(|| tr!("Show")), is_filled.then(|| tr!("Back"))];
         let room: f32 = buttons.iter().flatten().map(|text| button_width(text, ui) + gap).sum();
         before_ui(room - gap, ui, |ui| {
             // The wheel moves it: a bar would lie over the names.
@@ -130,9 +130,14 @@ fn name_ui(pane: PaneId, is_shown: bool, cx: &mut Cx<'_>, ui: &mut Ui) {
     }
 }
 
+/// Whether a pane has switches that it does not show itself.
+fn has_menu(pane: PaneId, views: &mut Views, cx: &Cx<'_>) -> bool {
+    spec(pane).has_options && !views.of(pane).has_options_beside(cx)
+}
+
 /// The button of the switches of a pane, if it has any.
 pub fn show_menu_ui(pane: PaneId, views: &mut Views, cx: &mut Cx<'_>, ui: &mut Ui) {
-    if !spec(pane).has_options {
+    if !has_menu(pane, views, cx) {
         return;
     }
     // A switch is seldom set alone.

@@ -76,7 +76,7 @@ fn numbers(line: &str) -> [f64; 3] {
     };
     let (place, value) = line.split_once(": ").expect("a place and a value");
     let (theta_r, dphi) = place.split_once(", ").expect("two angles");
-    let value = value.split_once("= ").expect("a value").1.replace(" 1/sr", "");
+    let value = value.split_once("= ").expect("a value").1.replace(" sr⁻¹", "");
     [theta_r, dphi, &value].map(number)
 }
 

@@ -24,6 +24,8 @@ pub struct Cx<'a> {
     pub actions: &'a mut Vec<Action>,
     /// Whether a button of the mouse is down: axes then grow and do not shrink.
     pub interacting: bool,
+    /// Whether panes are presented: what is seldom changed then leaves its room to the plots.
+    pub is_presented: bool,
 }
 
 impl Cx<'_> {
@@ -61,6 +63,11 @@ pub trait View: Any {
 
     /// Paints it; evaluates nothing.
     fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui);
+
+    /// Whether the pane itself has what its *Show* menu would have, which is then left out.
+    fn has_options_beside(&self, _cx: &Cx<'_>) -> bool {
+        false
+    }
 
     /// The content of its *Show* menu.
     fn options_ui(&mut self, _cx: &mut Cx<'_>, _ui: &mut Ui) {}

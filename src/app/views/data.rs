@@ -182,7 +182,7 @@ const DOLP: [Heading; 4] = [
     ("residual", "Model less measurement", 68.0),
 ];
 const BRDF: [Heading; 4] = [
-    ("BRDF", "Measured BRDF in 1/sr", 80.0),
+    ("BRDF", "Measured BRDF in sr⁻¹", 80.0),
     ("± s.d.", "Its stated standard deviation", 80.0),
     ("model", "BRDF of the model at the sliders", 80.0),
     ("residual", "Model less measurement", 80.0),

@@ -226,7 +226,7 @@ impl View for FacetsView {
             legend_ui(densities, pins, ui);
         }
         let height = (height - (ui.cursor().top() - top)).max(60.0);
-        let hover = |name: &str, x: f64, y: f64| format!("{name}\nα = {x:.2}°\n{y:.4e} 1/sr");
+        let hover = |name: &str, x: f64, y: f64| format!("{name}\nα = {x:.2}°\n{y:.4e} sr⁻¹");
         let style = PanelStyle::new("facet densities", height, &hover).named(tr!("Plot: densities of facet tilts"));
         if let Some(panel) = self.plot.panel(0) {
             panel.ui(&style, ui);
@@ -269,13 +269,15 @@ fn legend_ui(densities: &[Density; 2], pins: &[Pinned], ui: &mut Ui) {
     let help = tr!("Dotted: P has fallen to half of P(0). Dashed: half of the projected facets are tilted less.");
     ui.horizontal_wrapped(|ui| {
         for (i, (distribution, density)) in SlopeDistribution::ALL.into_iter().zip(densities).enumerate() {
+            if i > 0 {
+                ui.add_space(8.0);
+            }
             let median = format!("{:.2}", density.median);
             let text = match density.half_width {
                 Some(half) => tr!("{0}: half at {1}°, median {2}°", name(distribution), format!("{half:.2}"), median),
                 None => tr!("{0}: median {1}°", name(distribution), median),
             };
             ui.colored_label(theme::series(i, dark), text).explained(&help);
-            ui.add_space(8.0);
         }
     });
     let ink = ui.visuals().text_color();

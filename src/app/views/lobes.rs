@@ -253,7 +253,7 @@ impl LobesView {
         let (log, times_cosine) = (cx.work.settings().log_brdf, cx.work.settings().view_options.times_cosine);
         let quantity = quantity(times_cosine);
         let hint = mask_hint(cx.work.active());
-        let hover = |name: &str, x: f64, y: f64| format!("{name}\nθr = {x:.2}°\n{quantity} = {y:.4e} 1/sr{hint}");
+        let hover = |name: &str, x: f64, y: f64| format!("{name}\nθr = {x:.2}°\n{quantity} = {y:.4e} sr⁻¹{hint}");
         let height = height - (ui.cursor().top() - top);
         let style = PanelStyle { place, ..PanelStyle::new("lobes", height, &hover) }.named(tr!("Plot: BRDF against θr"));
         let Some(response) = self.plot.panel(0).and_then(|panel| panel.ui(&style, ui)) else { return };

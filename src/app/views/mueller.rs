@@ -95,7 +95,7 @@ impl MuellerView {
             ui.add(field).labelled_by(label.id).on_hover_text(help);
             ui.label(tr!("at θi = {}°, Δφ = {}°", settings.theta_i, settings.dphi));
             if let Some(Some(matrix)) = self.matrix.get() {
-                ui.label(tr!("m00 = {} 1/sr", significant(matrix.element(0, 0)))).explained(tr!("BRDF for unpolarised light in"));
+                ui.label(tr!("m00 = {} sr⁻¹", significant(matrix.element(0, 0)))).explained(tr!("BRDF for unpolarised light in"));
             }
         });
     }

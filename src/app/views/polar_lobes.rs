@@ -233,7 +233,7 @@ impl View for PolarLobesView {
         }
         let hover = |name: &str, x: f64, y: f64| {
             let (brdf, theta_r) = (radius.brdf(libm::hypot(x, y)), libm::atan2(x, y).to_degrees());
-            format!("{name}\nθr = {theta_r:.1}°\nBRDF = {brdf:.4e} 1/sr")
+            format!("{name}\nθr = {theta_r:.1}°\nBRDF = {brdf:.4e} sr⁻¹")
         };
         let style = PanelStyle::new("polar lobes", ui.available_height(), &hover);
         panel.ui(&style.named(tr!("Plot: lobes around the point of incidence")), ui);

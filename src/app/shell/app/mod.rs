@@ -110,14 +110,16 @@ impl App {
     /// What panes get to see, the panes, and where they lie.
     pub fn split(&mut self) -> (Cx<'_>, &mut Views, &mut Dock) {
         let Self { work, derived, jobs, benchmarks, edits, actions, interacting, views, dock, .. } = self;
-        let cx = Cx { work, derived, jobs, benchmarks, edits, actions, interacting: *interacting };
+        let is_presented = dock.is_presented();
+        let cx = Cx { work, derived, jobs, benchmarks, edits, actions, interacting: *interacting, is_presented };
         (cx, views, dock)
     }
 
     /// What panels get to see, and the lists above the sliders.
     pub fn split_lists(&mut self) -> (Cx<'_>, &mut Lists) {
-        let Self { work, derived, jobs, benchmarks, edits, actions, interacting, dialogs, .. } = self;
-        let cx = Cx { work, derived, jobs, benchmarks, edits, actions, interacting: *interacting };
+        let Self { work, derived, jobs, benchmarks, edits, actions, interacting, dialogs, dock, .. } = self;
+        let is_presented = dock.is_presented();
+        let cx = Cx { work, derived, jobs, benchmarks, edits, actions, interacting: *interacting, is_presented };
         (cx, &mut dialogs.lists)
     }
 

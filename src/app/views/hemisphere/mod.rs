@@ -118,7 +118,7 @@ impl HemisphereQuantity {
             _ if value.is_nan() => tr!("nothing to tell"),
             Self::Dolp => tr!("DoLP = {}", format!("{value:.5}")),
             Self::Angle => tr!("angle of polarisation = {}°", format!("{:.2}", value + 0.0)),
-            Self::Brdf => tr!("BRDF = {} 1/sr", format!("{value:.4e}")),
+            Self::Brdf => tr!("BRDF = {} sr⁻¹", format!("{value:.4e}")),
             Self::SpecularShare => tr!("specular share = {}", format!("{value:.5}")),
         }
     }

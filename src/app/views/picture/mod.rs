@@ -10,6 +10,7 @@ mod painted;
 use crate::app::jobs::async_memo::AsyncMemo;
 use crate::app::jobs::memo::Memo;
 use crate::app::plots::BAR_ROOM;
+use crate::app::text::explained::Explained as _;
 use crate::app::text::numbers::significant;
 use crate::app::views::action::Action;
 use crate::app::views::context::{Cx, PaneSpec, View};
@@ -32,7 +33,7 @@ pub static SPEC: PaneSpec = PaneSpec {
     title: "Picture",
     tooltip: "What a polarisation camera sees of a sphere, a cylinder, a plate or a relief under a lamp and a sky",
     shortcut: None,
-    has_options: false,
+    has_options: true,
     has_figure: true,
     new: || Box::new(PictureView::default()),
 };
@@ -120,13 +121,25 @@ impl PictureView {
                 let limit = made.fresnel_limit?;
                 Some(tr!(
                     "One half vector in every pixel: the angle of polarisation and {0} are uniform; what varies is the depolarised share.",
-                    format!("DoLP_s = {limit:.3}")
+                    format!("{LIMIT} = {limit:.3}")
                 ))
             }
             (None, Some(_)) => {
                 Some(tr!("A sky alone: only θr counts, and light swings along circles around the middle. DoLP is greatest in a ring."))
             }
             _ => None,
+        }
+    }
+
+    /// What is seen, under which light, through which analyser and beside what.
+    fn controls_ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
+        let mut set = cx.work.settings().panes.picture;
+        controls::content_ui(&mut set, ui);
+        controls::light_ui(&mut set, ui);
+        controls::analyser_ui(&mut set, &mut self.turned, ui);
+        controls::companion_ui(&mut set, cx.work.surface().model.distribution, cx.work.pinned(), ui);
+        if set != cx.work.settings().panes.picture {
+            cx.edits.push(Edit::SetPictureOptions(set));
         }
     }
 
@@ -149,6 +162,7 @@ const WORDS: [f32; 2] = [150.0, 320.0];
 
 /// Side of the picture from which the words of the lesson stand under it.
 const SMALL: f32 = 200.0;
+const SMALL_PRESENTED: f32 = 400.0;
 
 /// What a text takes of the height of the pane, on as many lines as it needs.
 fn wrapped_height(text: &str, width: f32, ui: &Ui) -> f32 {
@@ -156,6 +170,24 @@ fn wrapped_height(text: &str, width: f32, ui: &Ui) -> f32 {
     let galley = ui.painter().layout(text.to_owned(), font, egui::Color32::PLACEHOLDER, width);
     galley.size().y + ui.spacing().item_spacing.y
 }
+
+/// What the picture teaches, with its one word of jargon explained.
+fn lesson_ui(text: &str, ui: &mut Ui) {
+    let part = |text: &str| egui::Label::new(egui::RichText::new(text).weak()).wrap();
+    let Some((before, after)) = text.split_once(LIMIT) else {
+        ui.add(part(text));
+        return;
+    };
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing.x = 0.0;
+        ui.add(part(before));
+        ui.add(part(LIMIT)).explained(tr!("DoLP of the facets alone: what polarises, without the diffuse and the volume term"));
+        ui.add(part(after));
+    });
+}
+
+/// DoLP of the specular term.
+const LIMIT: &str = "DoLP_s";
 
 /// A Stokes vector in words.
 fn stokes_text(stokes: Stokes, options: &PictureOptions) -> String {
@@ -191,12 +223,12 @@ impl View for PictureView {
     }
 
     fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
-        let mut set = cx.work.settings().panes.picture;
-        controls::content_ui(&mut set, ui);
-        controls::light_ui(&mut set, ui);
-        controls::analyser_ui(&mut set, &mut self.turned, ui);
+        if !cx.is_presented {
+            self.controls_ui(cx, ui);
+        }
         let own = cx.work.surface().model.distribution;
-        controls::companion_ui(&mut set, own, cx.work.pinned(), ui);
+        let mut set = cx.work.settings().panes.picture;
+        self.turned = self.turned.filter(|_| set.quantity == PictureQuantity::Analyser);
         if let Some(turned) = &mut self.turned {
             *turned = (*turned + TURN * f64::from(ui.input(|input| input.stable_dt.min(0.1)))).rem_euclid(180.0);
             ui.ctx().request_repaint();
@@ -212,7 +244,8 @@ impl View for PictureView {
         let room = wrapped_height(&hint, if is_beside { beside } else { size.x }, ui);
         let of_lesson = |lesson: &String| wrapped_height(lesson, if is_beside { beside } else { size.x }, ui);
         // In a small pane the picture comes first.
-        let has_room = |lesson: &String| is_beside && room + of_lesson(lesson) <= size.y || size.y - room - of_lesson(lesson) > SMALL;
+        let small = if cx.is_presented { SMALL_PRESENTED } else { SMALL };
+        let has_room = |lesson: &String| is_beside && room + of_lesson(lesson) <= size.y || size.y - room - of_lesson(lesson) > small;
         let lesson = lesson.filter(has_room);
         let below = room + lesson.as_ref().map_or(0.0, of_lesson);
         let side = (size.y - if is_beside { 0.0 } else { below }).max(60.0);
@@ -244,14 +277,20 @@ impl View for PictureView {
                     ui.set_min_height(room - ui.spacing().item_spacing.y);
                     ui.add(egui::Label::new(reading.unwrap_or(hint)).wrap());
                 });
-                if let Some(lesson) = lesson {
-                    ui.add(egui::Label::new(egui::RichText::new(lesson).weak()).wrap());
-                }
+                lesson.iter().for_each(|lesson| lesson_ui(lesson, ui));
             });
         });
         if set != cx.work.settings().panes.picture {
             cx.edits.push(Edit::SetPictureOptions(set));
         }
+    }
+
+    fn has_options_beside(&self, cx: &Cx<'_>) -> bool {
+        !cx.is_presented
+    }
+
+    fn options_ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
+        self.controls_ui(cx, ui);
     }
 
     fn figure(&self, cx: &Cx<'_>) -> Option<Figure> {
