@@ -12,6 +12,9 @@ pub fn axis<'a>(hints: AxisHints<'a>, ui: &Ui, title: &str, format: impl Fn(f64,
         .tick_label_color(ui.visuals().text_color())
 }
 
+/// How many marks there are at most, however long the axis is: numbers beyond that tell nothing more.
+const MOST: f64 = 14.0;
+
 /// Of the wanted gap, what marks may be apart where there would be a single one, which tells no scale.
 const CLOSER: f64 = 0.6;
 
@@ -21,7 +24,7 @@ const LINE: f64 = 1.65;
 /// Marks 1, 2 or 5 times a power of ten apart: at least `spread` times the plot's smallest spacing,
 /// and at least `least`.
 pub fn marks(input: &GridInput, spread: f64, least: f64) -> Vec<GridMark> {
-    let wanted = (spread * input.base_step_size).max(least);
+    let wanted = (spread * input.base_step_size).max(least).max((input.bounds.1 - input.bounds.0) / MOST);
     let marks = marks_apart(input, wanted);
     let closer = (CLOSER * wanted).max(LINE.min(spread) * input.base_step_size);
     if marks.len() < 2 { marks_apart(input, closer.max(least)) } else { marks }
@@ -149,7 +152,7 @@ mod tests {
         assert_eq!(labels(-3.46, -3.29, 0.005), ["3.5e-4", "4e-4", "4.5e-4", "5e-4"]);
         // One way of writing on one axis.
         assert_eq!(labels(-1.5, 1.0, 0.15), ["0.1", "1", "10"]);
-        assert_eq!(labels(-3.0106, -2.9626, 0.002), ["0.00098", "0.001", "0.00102", "0.00104", "0.00106", "0.00108"]);
+        assert_eq!(labels(-3.0106, -2.9626, 0.0016), ["0.00098", "0.001", "0.00102", "0.00104", "0.00106", "0.00108"]);
     }
 
     #[test]

@@ -186,7 +186,7 @@ impl PanelPlot {
         // Something above that was too wide does not make a plot run out of its pane.
         let width = ui.available_width().min(ui.clip_rect().right() - ui.cursor().left()) - if map.is_some() { BAR_ROOM } else { 0.0 };
         let dark = ui.visuals().dark_mode;
-        let x_title = if title.is_empty() { x.title.clone() } else { tr!("{0}  at {1}", x.title, title) };
+        let x_title = fitting_title(&x.title, title, width - style.left, ui);
         let x_axis = axis(AxisHints::new_x(), ui, &x_title, |at, step| x.label(at, step)).min_thickness(BELOW);
         let is_strip = style.place == PanelPlace::Strip;
         let below = if style.place == PanelPlace::OverStrip { 0.0 } else { BELOW };
@@ -279,6 +279,15 @@ const BELOW: f32 = 40.0;
 fn fits_upright(title: &str, length: f32, ui: &Ui) -> bool {
     let font = egui::TextStyle::Body.resolve(ui.style());
     ui.painter().layout_no_wrap(title.to_owned(), font, ui.visuals().text_color()).size().x <= length
+}
+
+/// What stands along a horizontal axis: with as much of the title of its panel as there is room for, which is told in parts
+/// after semicolons.
+fn fitting_title(axis: &str, title: &str, room: f32, ui: &Ui) -> String {
+    let ends = title.match_indices([';', '；']).map(|(end, _)| end).chain([title.len()]);
+    let texts = ends.filter(|end| *end > 0).map(|end| tr!("{0}  at {1}", axis, &title[..end]));
+    let mut fitting = texts.filter(|text| fits_upright(text, room, ui));
+    fitting.next_back().unwrap_or_else(|| axis.to_owned())
 }
 
 /// Letters of a title above a plot or in a corner, in points.

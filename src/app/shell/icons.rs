@@ -34,8 +34,8 @@ const LETTER: f32 = 14.0;
 
 /// A button with an icon; one of a switch is filled while that is on.
 pub fn icon_ui(icon: Icon, name: &str, is_on: Option<bool>, ui: &mut Ui) -> Response {
-    let button = Button::new(RichText::new(icon.letter()).size(LETTER)).min_size(vec2(ICON, ui.spacing().interact_size.y)).frame_when_inactive(false);
-    let response = ui.add(button.selected(is_on == Some(true)));
+    let button = Button::selectable(is_on == Some(true), RichText::new(icon.letter()).size(LETTER));
+    let response = ui.add(button.min_size(vec2(ICON, ui.spacing().interact_size.y)));
     let is_enabled = response.enabled();
     response.widget_info(|| match is_on {
         Some(is_on) => WidgetInfo::selected(Role::CheckBox, is_enabled, is_on, name),

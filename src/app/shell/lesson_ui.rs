@@ -105,7 +105,12 @@ fn lesson_ui(app: &mut App, ui: &mut Ui) {
     if !is_wide {
         ui.horizontal_wrapped(|ui| {
             buttons_ui(number, index, count, actions, ui);
-            ui.weak(tr!("Your own work comes back when you close the lesson."));
+            let promise = egui::WidgetText::from(RichText::new(tr!("Your own work comes back when you close the lesson.")).weak());
+            let galley = promise.into_galley(ui, Some(egui::TextWrapMode::Extend), f32::INFINITY, TextStyle::Body);
+            // The button says it too.
+            if galley.size().x <= ui.available_size_before_wrap().x {
+                ui.label(galley);
+            }
         });
     }
     if !dock.is_presented() {

@@ -11,10 +11,11 @@ use crate::app::work::edit::{Edit, Switch};
 use crate::app::work::pane_id::PaneId;
 use crate::app::work::picture_options::{PictureCompanion, PictureOptions};
 use crate::app::work::sharing::Sharing;
+use egui::accesskit::Role;
 use egui::epaint::{ClippedShape, TextShape};
 use egui::{Key, Modifiers, Rect, Shape, Vec2, vec2};
 use egui_kittest::Harness;
-use egui_kittest::kittest::Queryable as _;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use pbrdf::model::Parameter;
 
 type Window = Harness<'static, Option<App>>;
@@ -22,6 +23,9 @@ type Window = Harness<'static, Option<App>>;
 /// In points: the least window, 1366 × 768 pixels at zoom 1.5, the first size of a window, and 1920 × 1080 pixels, which
 /// are 3840 × 2160 at zoom 2.
 const SIZES: [Vec2; 4] = [vec2(1024.0, 640.0), vec2(1366.0 / 1.5, 512.0), vec2(1280.0, 800.0), vec2(1920.0, 1080.0)];
+
+/// What half of the last number of a horizontal axis takes beside its plot, in points.
+const NUMBER: f32 = 6.0;
 
 /// What rounding to pixels may move, in points.
 const ROUNDING: f32 = 1.0;
@@ -96,6 +100,13 @@ fn faults(harness: &mut Window, size: Vec2) -> Vec<String> {
             if is_cut {
                 cut.push(text);
             }
+        }
+    }
+    for plot in harness.query_all_by_role(Role::Image) {
+        let (rect, name) = (plot.rect(), plot.accesskit_node().label());
+        // A plot in a list may lie below the window, but none at a side of it.
+        if rect.left() < -ROUNDING || rect.right() > size.x - NUMBER + ROUNDING {
+            faults.push(format!("at a side: {name:?} at {rect}"));
         }
     }
     for (i, one) in texts.iter().enumerate() {
@@ -311,6 +322,21 @@ fn presentations() {
         let halves = PictureOptions { companion: PictureCompanion::OtherDistribution, ..PictureOptions::default() };
         edit(&mut harness, Edit::SetPictureOptions(halves));
         at_all_sizes(&mut harness, &format!("halves {language:?}"), found);
+    });
+}
+
+#[test]
+fn presented_lessons() {
+    in_each_language(|language, found| {
+        let mut harness = spoken(harness(), language);
+        explorer(&mut harness).window.talk.zoom = 1.0;
+        for lesson in 0..explorer(&mut harness).lessons.all.len() {
+            act(&mut harness, Action::ShowStep(lesson, 0));
+            act(&mut harness, Action::Window(WindowAction::Present));
+            assert!(explorer(&mut harness).dock.is_presented());
+            at_all_sizes(&mut harness, &format!("presented lesson {} {language:?}", lesson + 1), found);
+            act(&mut harness, Action::Window(WindowAction::Present));
+        }
     });
 }
 

@@ -230,7 +230,7 @@ fn lessons_in_the_window() {
     fuzz("lesson-in-the-window", &samples, |bytes| {
         let Ok(lesson) = Lesson::from_text(&String::from_utf8_lossy(bytes)) else { return false };
         let steps = lesson.steps.len();
-        explorer(&mut harness).lessons = Lessons { all: vec![lesson], session: None };
+        explorer(&mut harness).lessons = Lessons { all: vec![lesson], ..Default::default() };
         for step in 0..steps {
             explorer(&mut harness).actions.push(Action::ShowStep(0, step));
             wait(&mut harness);

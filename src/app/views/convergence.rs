@@ -74,7 +74,7 @@ impl View for ConvergenceView {
             return;
         }
         let starts = report.course.minima.iter().map(|minimum| minimum.hits).sum::<usize>();
-        ui.weak(tr!("Winning start of {0}; {1}", starts, report.stop_reason.localized()));
+        ui.weak(tr!("Winning start of {0}; {1}. ΔE on a logarithmic axis.", starts, report.stop_reason.localized()));
         let title = if cx.work.settings().view_options.convergence_by_time { tr!("time / ms") } else { tr!("residual evaluations") };
         let hover = |_: &str, x: f64, y: f64| format!("{title}: {}\nΔE = {y:.6e}", decimal(x, 0.1));
         let style = PanelStyle::new("convergence", ui.available_height(), &hover).named(tr!("Plot: ΔE of the last fit against {}", title));

@@ -68,14 +68,19 @@ fn readout(key: &ReadoutKey) -> Option<String> {
     let side = |theta_r: f64| if theta_r < 0.0 { dphi - 180.0 } else { dphi };
     let of_reading = |reading: &ReadoutPlace| match *reading {
         ReadoutPlace::Mirror => at(theta_i, 180.0).map(|said| tr!("Mirror direction θr = θi = {0}°: {1}", theta_i, said)),
-        ReadoutPlace::ThetaR(theta_r) => at(theta_r, side(theta_r)).map(|said| format!("θr = {theta_r}°: {said}")),
+        ReadoutPlace::ThetaR(theta_r) => at(theta_r, side(theta_r)).map(|said| format!("θr = {}°: {said}", decimal(theta_r))),
     };
     let readings = key.readings.iter().filter_map(of_reading);
     let pointed = key.pointer.and_then(|theta_r| {
         let said = at(theta_r, side(theta_r))?;
-        Some(tr!("Pointer θr = {0}°: {1}", format!("{theta_r:.1}"), said))
+        Some(tr!("Pointer θr = {0}°: {1}", decimal((theta_r * 10.0).round() / 10.0), said))
     });
     Some(readings.chain(pointed).collect::<Vec<_>>().join("   ")).filter(|text| !text.is_empty())
+}
+
+/// An angle with the sign that stands in texts.
+fn decimal(degrees: f64) -> String {
+    format!("{}", degrees + 0.0).replace('-', "−")
 }
 
 /// What the problem of a surface depends on: the generation of the data, model, ties and range.

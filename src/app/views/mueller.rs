@@ -101,8 +101,9 @@ impl MuellerView {
     }
 }
 
-/// Below this width the heat map lies under the curves.
+/// Below this width the heat map lies under the curves, unless there is so much more width than height.
 const SIDE_BY_SIDE: f32 = 430.0;
+const WIDE: f32 = 1.3;
 const LETTERS: f32 = 12.0;
 /// Between the two parts.
 const GAP: f32 = 14.0;
@@ -222,7 +223,7 @@ const NUMBER: f64 = 0.25;
 
 /// Where the curves and where the heat map lie.
 fn parts(rect: Rect) -> [Rect; 2] {
-    if rect.width() > SIDE_BY_SIDE {
+    if rect.width() > SIDE_BY_SIDE.min(WIDE * rect.height()) {
         let width = (0.4 * rect.width()).min(rect.height());
         let [left, mut right] = {
             let (left, right) = rect.split_left_right_at_x(rect.right() - width);
@@ -274,8 +275,8 @@ fn number(value: f64) -> String {
     match value {
         _ if value.is_nan() => "–".to_owned(),
         0.0 => "0".to_owned(),
-        _ if value.abs() < 5e-4 => if value > 0.0 { "+0" } else { "-0" }.to_owned(),
-        _ => format!("{value:.3}"),
+        _ if value.abs() < 5e-4 => if value > 0.0 { "+0" } else { "−0" }.to_owned(),
+        _ => format!("{value:.3}").replace('-', "−"),
     }
 }
 
@@ -304,7 +305,7 @@ mod tests {
     #[test]
     fn numbers_tell_nothing_from_little() {
         for (value, expected) in
-            [(0.0, "0"), (-0.0, "0"), (1e-9, "+0"), (-1e-9, "-0"), (-0.1234, "-0.123"), (1.0, "1.000"), (f64::NAN, "–")]
+            [(0.0, "0"), (-0.0, "0"), (1e-9, "+0"), (-1e-9, "−0"), (-0.1234, "−0.123"), (1.0, "1.000"), (f64::NAN, "–")]
         {
             assert_eq!(number(value), expected);
         }

@@ -161,6 +161,9 @@ fn sigmas_ui(cx: &mut Cx<'_>, ui: &mut Ui) {
             let weights = if used { Weights::Sigma } else { Weights::None };
             cx.edits.push(Edit::SetFitOptions(FitOptions { weights, ..fit_options }));
         }
+        if fit_options.weights == Weights::None {
+            ui.weak(tr!("The file states them. Without the tick all values count alike, as in ΔE of Eq. (18)."));
+        }
     }
 }
 

@@ -23,7 +23,8 @@ use crate::app::work::picture_scene::SceneKey;
 use crate::figure::Figure;
 use crate::report::PictureQuantity;
 use canvas::{MeasuredMark, PictureCanvas};
-use egui::{Align, Layout, Ui, vec2};
+use egui::text::CCursor;
+use egui::{Align, Layout, Role, Ui, WidgetInfo, vec2};
 use painted::{PaintedKey, PaintedScene};
 use pbrdf::model::{Lamp, Pbrdf, Shape};
 use pbrdf::optics::{Geometry, Stokes};
@@ -171,19 +172,17 @@ fn wrapped_height(text: &str, width: f32, ui: &Ui) -> f32 {
     galley.size().y + ui.spacing().item_spacing.y
 }
 
-/// What the picture teaches, with its one word of jargon explained.
+/// What the picture teaches, with its one word of jargon explained where it stands.
 fn lesson_ui(text: &str, ui: &mut Ui) {
-    let part = |text: &str| egui::Label::new(egui::RichText::new(text).weak()).wrap();
-    let Some((before, after)) = text.split_once(LIMIT) else {
-        ui.add(part(text));
-        return;
-    };
-    ui.horizontal_wrapped(|ui| {
-        ui.spacing_mut().item_spacing.x = 0.0;
-        ui.add(part(before));
-        ui.add(part(LIMIT)).explained(tr!("DoLP of the facets alone: what polarises, without the diffuse and the volume term"));
-        ui.add(part(after));
-    });
+    let (at, galley, response) = egui::Label::new(egui::RichText::new(text).weak()).wrap().layout_in_ui(ui);
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, text));
+    ui.painter().galley(at, galley.clone(), ui.visuals().weak_text_color());
+    let Some((before, _)) = text.split_once(LIMIT) else { return };
+    let first = before.chars().count();
+    let place = |index: usize, prefer_next_row| galley.pos_from_cursor(CCursor { index: index.into(), prefer_next_row }).translate(at.to_vec2());
+    let word = place(first, true).union(place(first + LIMIT.len(), false));
+    ui.interact(word, response.id.with(LIMIT), egui::Sense::CLICK)
+        .explained(tr!("DoLP of the facets alone: what polarises, without the diffuse and the volume term"));
 }
 
 /// DoLP of the specular term.
