@@ -105,12 +105,9 @@ fn lesson_ui(app: &mut App, ui: &mut Ui) {
     if !is_wide {
         ui.horizontal_wrapped(|ui| {
             buttons_ui(number, index, count, actions, ui);
-            let promise = egui::WidgetText::from(RichText::new(tr!("Your own work comes back when you close the lesson.")).weak());
-            let galley = promise.into_galley(ui, Some(egui::TextWrapMode::Extend), f32::INFINITY, TextStyle::Body);
-            // The button says it too.
-            if galley.size().x <= ui.available_size_before_wrap().x {
-                ui.label(galley);
-            }
+            let promise = egui::WidgetText::from(RichText::new(tr!("Your own work comes back at the end.")).weak());
+            // Beside the buttons, or as a whole beneath them.
+            ui.label(promise.into_galley(ui, Some(egui::TextWrapMode::Extend), f32::INFINITY, TextStyle::Body));
         });
     }
     if !dock.is_presented() {

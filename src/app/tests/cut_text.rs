@@ -105,7 +105,7 @@ fn faults(harness: &mut Window, size: Vec2) -> Vec<String> {
     for plot in harness.query_all_by_role(Role::Image) {
         let (rect, name) = (plot.rect(), plot.accesskit_node().label());
         // A plot in a list may lie below the window, but none at a side of it.
-        if rect.left() < -ROUNDING || rect.right() > size.x - NUMBER + ROUNDING {
+        if rect.width() > DIALOG.x && (rect.left() < -ROUNDING || rect.right() > size.x - NUMBER + ROUNDING) {
             faults.push(format!("at a side: {name:?} at {rect}"));
         }
     }

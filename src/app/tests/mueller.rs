@@ -25,7 +25,7 @@ fn spoken(harness: &Harness<'static, Option<App>>) -> String {
 /// The sixteen numbers of it.
 fn numbers(spoken: &str) -> Vec<f64> {
     let (_, table) = spoken.split_once(": ").expect("a title and a table");
-    table.split([' ', ';']).filter(|text| !text.is_empty()).map(|text| text.parse().expect("a number")).collect()
+    table.split([' ', ';']).filter(|text| !text.is_empty()).map(|text| text.replace('−', "-").parse().expect("a number")).collect()
 }
 
 fn expected(explorer: &App, theta_r: f64, dphi: f64) -> Mueller {

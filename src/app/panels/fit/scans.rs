@@ -11,6 +11,7 @@ use crate::app::views::action::Action;
 use crate::app::work::diagnostics::ProfileCurve;
 use crate::app::work::edit::Edit;
 use crate::app::work::fit_history::FitEntry;
+use crate::figure::with_unit;
 use egui::{Align2, Button, CollapsingHeader, ComboBox, DragValue, RichText, Role, Ui, WidgetInfo};
 use egui_plot::{AxisHints, HLine, HoverPosition, LineStyle, Plot, PlotPoint, PlotPoints, Points, Text, VLine};
 use pbrdf::model::Parameter;
@@ -108,10 +109,13 @@ fn profile_ui(profile: &ProfileCurve, ui: &mut Ui) {
     if !(first.x < last.x && top > 0.0) {
         return;
     }
-    let x = axis(AxisHints::new_x(), ui, profile.parameter.symbol(), decimal).min_thickness(40.0);
+    let x_title = with_unit(profile.parameter.symbol(), profile.parameter.unit());
+    let x = axis(AxisHints::new_x(), ui, &x_title, decimal).min_thickness(40.0);
     let y = axis(AxisHints::new_y(), ui, name, decimal).min_thickness(58.0);
     let plot = Plot::new("profile")
         .height(HEIGHT)
+        // A wide table over it does not make it run out of the panel.
+        .width(ui.available_width().min(ui.clip_rect().right() - ui.cursor().left()))
         .custom_x_axes(vec![x])
         .custom_y_axes(vec![y])
         .x_grid_spacer(|input| axis::marks(&input, 6.0, 0.0))
