@@ -28,26 +28,28 @@ const LETTERS: [(Menu, Key); 7] = [
 pub fn menu_ui(app: &mut App, ui: &mut Ui) {
     egui::MenuBar::new().ui(ui, |ui| {
         menus_ui(app, ui);
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| tools_ui(app, ui));
+        tools_ui(app, ui);
     });
 }
 
-/// What the icons at the end of the bar order, from the right: whether it is on, if it is a switch, and whether it is possible.
+/// What the icons at the end of the bar order: whether it is on, if it is a switch, and whether it is possible.
 fn tools_ui(app: &mut App, ui: &mut Ui) {
     let panels = &app.window.panels;
     let panel = |panel| Action::Window(WindowAction::TogglePanel(panel));
     let tools = [
-        (Icon::Present, tr!("Presentation (F11): the panes on screen, large, with a few sliders"), Action::Window(WindowAction::Present), None, true),
-        (Icon::RightPanel, tr!("Panel of fits beside the plots"), panel(SidePanel::Fit), Some(panels.fit), true),
-        (Icon::LeftPanel, tr!("Panel of parameters beside the plots"), panel(SidePanel::Parameters), Some(panels.parameters), true),
-        (Icon::Redo, tr!("Redo the last step"), Action::Redo, None, app.work.can_redo()),
         (Icon::Undo, tr!("Undo the last step"), Action::Undo, None, app.work.can_undo()),
+        (Icon::Redo, tr!("Redo the last step"), Action::Redo, None, app.work.can_redo()),
+        (Icon::LeftPanel, tr!("Panel of parameters beside the plots"), panel(SidePanel::Parameters), Some(panels.parameters), true),
+        (Icon::RightPanel, tr!("Panel of fits beside the plots"), panel(SidePanel::Fit), Some(panels.fit), true),
+        (Icon::Present, tr!("Presentation (F11): the panes on screen, large, with a few sliders"), Action::Window(WindowAction::Present), None, true),
     ];
     #[expect(clippy::cast_precision_loss, reason = "a number of icons")]
     let needed = tools.len() as f32 * (ICON + ui.spacing().item_spacing.x);
-    if ui.available_width() < needed {
+    let room = ui.available_width() - needed;
+    if room < 0.0 {
         return;
     }
+    ui.add_space(room);
     for (icon, name, action, is_on, is_possible) in tools {
         let button = ui.add_enabled_ui(is_possible, |ui| icon_ui(icon, &name, is_on, ui)).inner;
         if button.clicked() {

@@ -2,7 +2,9 @@
 //! languages, no text is cut, lies over another or runs out of the window.
 
 use crate::app::shell::app::App;
+use crate::app::tasks::benchmarks::BenchmarkId;
 use crate::app::tests::measurements::{files, three};
+use crate::app::tests::snapshots::report;
 use crate::app::tests::{edit, explorer, harness, wait};
 use crate::app::text::help::Help;
 use crate::app::text::i18n::{Language, translated};
@@ -336,6 +338,21 @@ fn presented_lessons() {
             assert!(explorer(&mut harness).dock.is_presented());
             at_all_sizes(&mut harness, &format!("presented lesson {} {language:?}", lesson + 1), found);
             act(&mut harness, Action::Window(WindowAction::Present));
+        }
+    });
+}
+
+#[test]
+fn reports() {
+    in_each_language(|language, found| {
+        for (subject, pane) in
+            [(BenchmarkId::Stability, PaneId::Stability), (BenchmarkId::Cost, PaneId::Cost), (BenchmarkId::ErrorVsTime, PaneId::ErrorVsTime)]
+        {
+            let mut harness = spoken(harness(), language);
+            let report = report(subject);
+            explorer(&mut harness).benchmarks.take(*report.result, report.is_part);
+            alone(&mut harness, pane);
+            at_all_sizes(&mut harness, &format!("{pane:?} {language:?}"), found);
         }
     });
 }

@@ -178,6 +178,61 @@ fn a_class_sees_plots_of_600_by_350_pixels_at_zoom_1_5() {
 }
 
 #[test]
+fn in_a_talk_the_picture_has_the_room_of_its_controls_which_are_in_its_menu() {
+    let mut harness = sized(1366.0 / 1.5, 512.0);
+    explorer(&mut harness).window.talk.zoom = 1.0;
+    act(&mut harness, Action::Window(WindowAction::ShowPane(PaneId::Picture)));
+    harness.get_by_label("Relief");
+    assert!(harness.query_by_label("Show in Picture").is_none(), "nothing is there twice");
+    act(&mut harness, Action::Window(WindowAction::Present));
+    act(&mut harness, Action::Window(WindowAction::ShowPane(PaneId::Lobes)));
+    assert!(harness.query_by_label("Relief").is_none());
+    let sphere = plot(&harness, "Picture: Radiance");
+    assert!(sphere.height() > 300.0, "{sphere:?}");
+    harness.get_by_label("Show in Picture").click();
+    wait(&mut harness);
+    harness.get_by_label("Relief").click();
+    wait(&mut harness);
+    assert_eq!(explorer(&mut harness).work.settings().panes.picture.shape, pbrdf::model::Shape::Relief);
+}
+
+#[test]
+fn the_text_of_a_lesson_folds_and_plots_have_its_room() {
+    let mut harness = harness();
+    act(&mut harness, Action::ShowStep(0, 0));
+    let before = plot(&harness, "Plot: DoLP against θr").height();
+    assert!(harness.query_by_label("Watch").is_some());
+    harness.get_by_label("Only the plots, without the text").click();
+    wait(&mut harness);
+    assert!(harness.query_by_label("Watch").is_none());
+    assert!(plot(&harness, "Plot: DoLP against θr").height() > before + 20.0);
+    harness.get_by_label("Next step");
+    harness.get_by_label("Show the text").click();
+    wait(&mut harness);
+    assert_eq!(plot(&harness, "Plot: DoLP against θr").height(), before);
+}
+
+#[test]
+fn icons_of_the_menu_bar_order_what_they_say() {
+    let mut harness = harness();
+    let before = explorer(&mut harness).work.surface().parameters;
+    harness.get_by_role_and_label(Role::Slider, "n").set_value_accesskit(1.5);
+    wait(&mut harness);
+    harness.get_by_label("Undo the last step").click();
+    wait(&mut harness);
+    assert_eq!(explorer(&mut harness).work.surface().parameters, before);
+    harness.get_by_label("Redo the last step").click();
+    wait(&mut harness);
+    assert_eq!(explorer(&mut harness).work.surface().parameters.n, 1.5);
+    harness.get_by_label("Panel of fits beside the plots").click();
+    wait(&mut harness);
+    assert!(!explorer(&mut harness).window.panels.fit);
+    harness.get_by_label_contains("Presentation (F11)").click();
+    wait(&mut harness);
+    assert!(explorer(&mut harness).dock.is_presented());
+}
+
+#[test]
 fn in_a_low_window_one_pane_is_seen_at_a_time() {
     let mut harness = sized(1366.0, 480.0);
     assert_eq!(explorer(&mut harness).dock.on_screen(), [PaneId::Dolp]);

@@ -116,7 +116,7 @@ fn fitted() -> Harness<'static, Option<App>> {
 
 /// The reports by a clock that goes on by a long repetition whenever it is looked at; of the first
 /// the evaluations alone, since the others take long.
-fn report(subject: BenchmarkId) -> FinishedBenchmark {
+pub(super) fn report(subject: BenchmarkId) -> FinishedBenchmark {
     let (looks, asked) = (AtomicU32::new(0), AtomicU32::new(0));
     let clock = || 10.0 * f64::from(looks.fetch_add(1, Ordering::Relaxed));
     let methods = 5;

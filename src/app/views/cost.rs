@@ -11,7 +11,7 @@ use pbrdf::selftest::Cost;
 use tr::tr;
 
 const HEADINGS: [Heading; 9] = [
-    Heading { text: "scene", help: "What is looked at", width: 265.0, is_number: false },
+    Heading { text: "scene", help: "What is looked at", width: 400.0, is_number: false },
     Heading { text: "kernel", help: "One point after the other, or many at once", width: 44.0, is_number: false },
     Heading { text: "ns per point", help: "Median of the repetitions", width: 78.0, is_number: true },
     Heading { text: "", help: "The same as a bar, logarithmic", width: 100.0, is_number: false },
@@ -19,7 +19,7 @@ const HEADINGS: [Heading; 9] = [
     Heading { text: "max error", help: "The same, relative", width: 70.0, is_number: true },
     Heading { text: "threads", help: "Threads", width: 52.0, is_number: true },
     Heading { text: "points", help: "Points of one evaluation", width: 62.0, is_number: true },
-    Heading { text: "left out", help: "What the scene does not need", width: 480.0, is_number: false },
+    Heading { text: "left out", help: "What the scene does not need", width: 600.0, is_number: false },
 ];
 
 /// Columns of the report that stand as they are, by place here.

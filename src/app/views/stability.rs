@@ -20,7 +20,7 @@ const HEADINGS: [Heading; 7] = [
         width: 18.0,
         is_number: false,
     },
-    Heading { text: "case", help: "A click puts the sliders there", width: 250.0, is_number: false },
+    Heading { text: "case", help: "A click puts the sliders there", width: 350.0, is_number: false },
     Heading { text: "digits", help: "Decimal digits of BRDF and DoLP against 60-digit values, 16 at most", width: 48.0, is_number: true },
     Heading { text: "gradient", help: "Digits of the nine derivatives of both", width: 58.0, is_number: true },
     Heading { text: "textbook", help: "Digits of the formulas as they are printed, in the same arithmetic", width: 60.0, is_number: true },
