@@ -18,6 +18,9 @@ const MOST: f64 = 14.0;
 /// Of the wanted gap, what marks may be apart where there would be a single one, which tells no scale.
 const CLOSER: f64 = 0.6;
 
+/// The same where there would be two.
+const CLOSE: f64 = 0.8;
+
 /// What is at least between marks, in the plot's smallest spacing: a line of text.
 const LINE: f64 = 1.65;
 
@@ -26,8 +29,10 @@ const LINE: f64 = 1.65;
 pub fn marks(input: &GridInput, spread: f64, least: f64) -> Vec<GridMark> {
     let wanted = (spread * input.base_step_size).max(least).max((input.bounds.1 - input.bounds.0) / MOST);
     let marks = marks_apart(input, wanted);
-    let closer = (CLOSER * wanted).max(LINE.min(spread) * input.base_step_size);
-    if marks.len() < 2 { marks_apart(input, closer.max(least)) } else { marks }
+    // Two are a scale, but hardly one to read by.
+    let share = if marks.len() < 2 { CLOSER } else { CLOSE };
+    let closer = (share * wanted).max(LINE.min(spread) * input.base_step_size);
+    if marks.len() < 3 { marks_apart(input, closer.max(least)) } else { marks }
 }
 
 fn marks_apart(input: &GridInput, wanted: f64) -> Vec<GridMark> {

@@ -10,7 +10,7 @@ use tr::tr;
 
 /// Height of the rows that are shown, at most and at least, and what the rest of the dialog takes.
 const TABLE_HEIGHT: f32 = 250.0;
-const LEAST_HEIGHT: f32 = 110.0;
+const LEAST_HEIGHT: f32 = 170.0;
 const REST_HEIGHT: f32 = 460.0;
 /// Columns that are shown; a wider table is read whole all the same.
 const SHOWN_COLUMNS: usize = 40;

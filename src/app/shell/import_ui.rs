@@ -23,6 +23,9 @@ use tr::tr;
 /// on the options.
 const WIDTH: f32 = 860.0;
 const ANSWER_HEIGHT: f32 = 176.0;
+/// In a window lower than this the answer leaves room to the table that the questions are about.
+const LOW: f32 = 600.0;
+const LOW_ANSWER_HEIGHT: f32 = 112.0;
 /// Rows of the measurement that are shown.
 const SHOWN: usize = 5;
 /// With more wavelengths there is a slider in place of a list.
@@ -36,7 +39,8 @@ pub fn import_ui(app: &mut App, ui: &mut Ui) {
         recalled_ui(import, ui);
         questions_ui(import, ui);
         ui.separator();
-        let answer = ScrollArea::vertical().id_salt("answer").min_scrolled_height(ANSWER_HEIGHT).max_height(ANSWER_HEIGHT);
+        let height = if ui.ctx().content_rect().height() < LOW { LOW_ANSWER_HEIGHT } else { ANSWER_HEIGHT };
+        let answer = ScrollArea::vertical().id_salt("answer").min_scrolled_height(height).max_height(height);
         let is_sound = answer.auto_shrink([false; 2]).show(ui, |ui| answer_ui(import, ui)).inner;
         alike_ui(&mut import.alike, ui);
         ui.add_space(6.0);
