@@ -24,7 +24,8 @@ pub fn toggle(app: &mut App, ctx: &egui::Context) {
         (true, Some(_)) => app.dock.present_all(),
         _ => app.dock.leave_stage(),
     }
-    ctx.set_zoom_factor(if begins { app.window.talk.zoom } else { app.window.zoom });
+    // On a screen of small pixels nothing becomes smaller in a talk.
+    ctx.set_zoom_factor(if begins { app.window.talk.zoom.max(app.window.zoom) } else { app.window.zoom });
     ctx.send_viewport_cmd(ViewportCommand::Fullscreen(begins));
 }
 

@@ -197,6 +197,17 @@ fn in_a_talk_the_picture_has_the_room_of_its_controls_which_are_in_its_menu() {
 }
 
 #[test]
+fn nothing_is_smaller_in_a_talk_than_in_the_window() {
+    let mut harness = sized(3840.0, 2160.0);
+    harness.ctx.set_zoom_factor(2.0);
+    wait(&mut harness);
+    act(&mut harness, Action::Window(WindowAction::Present));
+    assert_eq!(harness.ctx.zoom_factor(), 2.0);
+    act(&mut harness, Action::Window(WindowAction::Present));
+    assert_eq!(harness.ctx.zoom_factor(), 2.0);
+}
+
+#[test]
 fn the_text_of_a_lesson_folds_and_plots_have_its_room() {
     let mut harness = harness();
     act(&mut harness, Action::ShowStep(0, 0));
