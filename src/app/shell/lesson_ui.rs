@@ -142,7 +142,8 @@ fn lesson_ui(app: &mut App, ui: &mut Ui) {
 
 /// Takes the text away, so that plots have its room, and brings it back.
 fn fold_ui(is_folded: &mut bool, ui: &mut Ui) {
-    let (icon, name) = if *is_folded { (Icon::Unfold, tr!("Show the text")) } else { (Icon::Fold, tr!("Only the plots, without the text")) };
+    let (icon, name) =
+        if *is_folded { (Icon::Unfold, tr!("Show the text")) } else { (Icon::Fold, tr!("Only the plots, without the text")) };
     if icon_ui(icon, &name, None, ui).clicked() {
         *is_folded = !*is_folded;
     }

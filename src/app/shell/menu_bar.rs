@@ -41,7 +41,13 @@ fn tools_ui(app: &mut App, ui: &mut Ui) {
         (Icon::Redo, tr!("Redo the last step"), Action::Redo, None, app.work.can_redo()),
         (Icon::LeftPanel, tr!("Panel of parameters beside the plots"), panel(SidePanel::Parameters), Some(panels.parameters), true),
         (Icon::RightPanel, tr!("Panel of fits beside the plots"), panel(SidePanel::Fit), Some(panels.fit), true),
-        (Icon::Present, tr!("Presentation (F11): the panes on screen, large, with a few sliders"), Action::Window(WindowAction::Present), None, true),
+        (
+            Icon::Present,
+            tr!("Presentation (F11): the panes on screen, large, with a few sliders"),
+            Action::Window(WindowAction::Present),
+            None,
+            true,
+        ),
     ];
     #[expect(clippy::cast_precision_loss, reason = "a number of icons")]
     let needed = tools.len() as f32 * (ICON + ui.spacing().item_spacing.x);

@@ -345,9 +345,11 @@ fn presented_lessons() {
 #[test]
 fn reports() {
     in_each_language(|language, found| {
-        for (subject, pane) in
-            [(BenchmarkId::Stability, PaneId::Stability), (BenchmarkId::Cost, PaneId::Cost), (BenchmarkId::ErrorVsTime, PaneId::ErrorVsTime)]
-        {
+        for (subject, pane) in [
+            (BenchmarkId::Stability, PaneId::Stability),
+            (BenchmarkId::Cost, PaneId::Cost),
+            (BenchmarkId::ErrorVsTime, PaneId::ErrorVsTime),
+        ] {
             let mut harness = spoken(harness(), language);
             let report = report(subject);
             explorer(&mut harness).benchmarks.take(*report.result, report.is_part);

@@ -107,6 +107,24 @@ fn enter_keeps_the_focus() {
 }
 
 #[test]
+fn keys_that_a_field_has_no_use_for_work_while_it_is_typed_into() {
+    let mut harness = harness();
+    harness.get_by_role_and_label(Role::SpinButton, "n").focus();
+    wait(&mut harness);
+    harness.key_press(Key::Enter);
+    wait(&mut harness);
+    assert!(harness.ctx.text_edit_focused());
+    let before = explorer(&mut harness).work.surface().clone();
+    // Of the field: all of its text.
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    wait(&mut harness);
+    assert_eq!(*explorer(&mut harness).work.surface(), before);
+    harness.key_press(Key::F11);
+    wait(&mut harness);
+    assert!(explorer(&mut harness).dock.is_presented());
+}
+
+#[test]
 fn f10_opens_the_first_menu() {
     let mut harness = harness();
     harness.key_press(Key::F10);

@@ -85,8 +85,12 @@ fn readings(app: &App) -> Vec<ReadoutPlace> {
 }
 
 fn listen_to_keys(app: &mut App, ctx: &egui::Context) {
-    // Keys belong to the field that is being typed into, or to the question that is asked.
-    if ctx.text_edit_focused() || app.dialogs.import.is_some() || app.dialogs.overwrite.is_some() {
+    // Keys belong to the question that is asked, or to the field that is being typed into as far as it has a use for them.
+    if app.dialogs.import.is_some() || app.dialogs.overwrite.is_some() {
+        return;
+    }
+    if ctx.text_edit_focused() {
+        app.actions.extend(shortcuts::pressed_while_typing(app, ctx));
         return;
     }
     if app.jobs.fits.walking_since.is_some() && ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape)) {

@@ -179,7 +179,8 @@ fn lesson_ui(text: &str, ui: &mut Ui) {
     ui.painter().galley(at, galley.clone(), ui.visuals().weak_text_color());
     let Some((before, _)) = text.split_once(LIMIT) else { return };
     let first = before.chars().count();
-    let place = |index: usize, prefer_next_row| galley.pos_from_cursor(CCursor { index: index.into(), prefer_next_row }).translate(at.to_vec2());
+    let place =
+        |index: usize, prefer_next_row| galley.pos_from_cursor(CCursor { index: index.into(), prefer_next_row }).translate(at.to_vec2());
     let word = place(first, true).union(place(first + LIMIT.len(), false));
     ui.interact(word, response.id.with(LIMIT), egui::Sense::CLICK)
         .explained(tr!("DoLP of the facets alone: what polarises, without the diffuse and the volume term"));
