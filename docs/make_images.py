@@ -25,7 +25,7 @@ COLORS = 256
 LITTLE = 32
 SHARE = 5e-4
 # Where the time of the fit stands, which is another one each time.
-TIMES = {"window": (1012, 324, 1278, 346), "screenshot": (1012, 324, 1278, 346), "planner": (1012, 324, 1278, 346), "joint": (1012, 386, 1278, 409)}
+TIMES = {"window": (1012, 357, 1278, 380), "screenshot": (1012, 357, 1278, 380), "planner": (1012, 357, 1278, 380), "joint": (1012, 421, 1278, 444)}
 # Seconds after which a window has to be still.
 PATIENCE = 90
 LAB_TABLE = """Messung vom 3. Mai;;
