@@ -2,13 +2,31 @@
 
 use crate::app::jobs::job::{Job, Panicked};
 use crate::app::jobs::spawner::Spawner;
+use std::time::Duration;
 
 /// A running job, which makes the value of a key.
 struct Running<K, V> {
     key: K,
-    /// The last frame that wanted these inputs.
+    /// The frame in which it began, and the last one that wanted these inputs.
+    begun_at: u64,
     wanted_at: u64,
     job: Job<V>,
+}
+
+impl<K, V> Running<K, V> {
+    fn new(key: K, frame: u64, job: Job<V>) -> Self {
+        Self { key, begun_at: frame, wanted_at: frame, job }
+    }
+
+    #[cfg(not(target_arch = "wasm32"))]
+    fn result(&self, frame: Option<u64>, patience: Duration) -> Result<Option<V>, Panicked> {
+        if frame == Some(self.begun_at + 1) { self.job.wait(patience) } else { self.job.poll() }
+    }
+
+    #[cfg(target_arch = "wasm32")]
+    fn result(&self, _frame: Option<u64>, _patience: Duration) -> Result<Option<V>, Panicked> {
+        self.job.poll()
+    }
 }
 
 /// Tells a job whether it is to stop.
@@ -23,6 +41,8 @@ pub struct AsyncMemo<K, V> {
     /// Inputs whose job panicked or did not start; they are not tried again.
     failed: Option<K>,
     frames_behind: u64,
+    /// How long a frame waits for a job that began with the frame before. A page cannot wait.
+    patience: Duration,
 }
 
 /// A value with its inputs.
@@ -35,11 +55,17 @@ struct MemoState<K, V> {
 
 impl<K, V> Default for AsyncMemo<K, V> {
     fn default() -> Self {
-        Self { shown: None, running: None, failed: None, frames_behind: 0 }
+        Self { shown: None, running: None, failed: None, frames_behind: 0, patience: Duration::ZERO }
     }
 }
 
 impl<K: PartialEq + Clone + Send + 'static, V: Send + 'static> AsyncMemo<K, V> {
+    /// For values that take less than a frame: one that is not quite there when the next frame begins is waited for
+    /// so long, and is one frame behind instead of two.
+    pub fn set_patience(&mut self, patience: Duration) {
+        self.patience = patience;
+    }
+
     /// Takes the value of a job that has ended, and starts a job if the value belongs to other
     /// inputs than these. Call it before every frame that shows the value. `make` owns its inputs
     /// and runs apart from the window; its value is dropped after a stop.
@@ -48,14 +74,14 @@ impl<K: PartialEq + Clone + Send + 'static, V: Send + 'static> AsyncMemo<K, V> {
             return;
         }
         match spawner.start("derive", move |context| make(&|| context.is_cancelled())) {
-            Ok(job) => self.running = Some(Running { key: key.clone(), wanted_at: spawner.frame(), job }),
+            Ok(job) => self.running = Some(Running::new(key.clone(), spawner.frame(), job)),
             Err(_) => self.failed = Some(key.clone()),
         }
     }
 
     /// Takes the value of a job that has ended; whether a job is to begin.
     fn is_to_be_made(&mut self, spawner: &Spawner, key: &K) -> bool {
-        self.poll();
+        self.poll(Some(spawner.frame()));
         let is_current = self.note_frame(spawner.frame(), key);
         !is_current && self.running.is_none() && self.failed.as_ref() != Some(key)
     }
@@ -77,7 +103,7 @@ impl<K: PartialEq + Clone + Send + 'static, V: Send + 'static> AsyncMemo<K, V> {
         }
         let Some((request, receive)) = ask() else { return false };
         match spawner.start_beside(&request, |_| None, receive) {
-            Ok(job) => self.running = Some(Running { key: key.clone(), wanted_at: spawner.frame(), job }),
+            Ok(job) => self.running = Some(Running::new(key.clone(), spawner.frame(), job)),
             Err(_) => self.failed = Some(key.clone()),
         }
         true
@@ -94,19 +120,20 @@ impl<K: PartialEq + Clone + Send + 'static, V: Send + 'static> AsyncMemo<K, V> {
         shown.key == *key
     }
 
-    fn poll(&mut self) {
-        let Some(Running { key, wanted_at, job }) = self.running.take() else { return };
-        match job.poll() {
-            Ok(Some(value)) => self.shown = Some(MemoState { key, value, wanted_at }),
-            Ok(None) => self.running = Some(Running { key, wanted_at, job }),
-            Err(Panicked) => self.failed = Some(key),
+    /// Takes the value of a job that has ended, or ends soon after the beginning of that frame.
+    fn poll(&mut self, frame: Option<u64>) {
+        let Some(running) = self.running.take() else { return };
+        match running.result(frame, self.patience) {
+            Ok(Some(value)) => self.shown = Some(MemoState { key: running.key, value, wanted_at: running.wanted_at }),
+            Ok(None) => self.running = Some(running),
+            Err(Panicked) => self.failed = Some(running.key),
         }
     }
 
     /// Stops the running job if nobody waits for the value of its inputs; the next job then need
     /// not wait for it.
     pub fn stop_if(&mut self, is_useless: impl FnOnce(&K) -> bool) {
-        self.poll();
+        self.poll(None);
         if self.running.as_ref().is_some_and(|running| is_useless(&running.key)) {
             self.running = None;
         }
@@ -226,6 +253,18 @@ mod tests {
         wait(&spawner);
         job.stop_if(|_| false);
         assert_eq!((job.key(), job.get()), (Some(&2), Some(&false)), "what a stopped job answers is not seen");
+    }
+
+    #[test]
+    fn a_value_that_is_nearly_there_is_waited_for() {
+        let spawner = spawner();
+        let mut job = AsyncMemo::default();
+        job.set_patience(Duration::from_secs(60));
+        for key in 1..4_u64 {
+            spawner.begin_frame();
+            job.refresh(&spawner, &key, |_| std::thread::sleep(Duration::from_millis(20)));
+            assert_eq!(job.key().copied().unwrap_or_default(), key - 1, "one frame behind");
+        }
     }
 
     #[test]

@@ -2,6 +2,8 @@
 
 use crate::app::platform::Instant;
 use std::sync::atomic::{AtomicBool, Ordering};
+#[cfg(not(target_arch = "wasm32"))]
+use std::sync::mpsc::RecvTimeoutError;
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
@@ -75,6 +77,21 @@ impl<T, P> Job<T, P> {
             Ok(result) => Ok(Some(result)),
             Err(TryRecvError::Empty) => Ok(None),
             Err(TryRecvError::Disconnected) => Err(Panicked),
+        }
+    }
+}
+
+#[cfg(not(target_arch = "wasm32"))]
+impl<T, P> Job<T, P> {
+    /// The result, if it comes within that time.
+    ///
+    /// # Errors
+    /// The job panicked.
+    pub fn wait(&self, patience: Duration) -> Result<Option<T>, Panicked> {
+        match self.receiver.recv_timeout(patience) {
+            Ok(result) => Ok(Some(result)),
+            Err(RecvTimeoutError::Timeout) => Ok(None),
+            Err(RecvTimeoutError::Disconnected) => Err(Panicked),
         }
     }
 }

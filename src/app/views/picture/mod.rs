@@ -28,6 +28,7 @@ use egui::{Align, Layout, Role, Ui, WidgetInfo, vec2};
 use painted::{PaintedKey, PaintedScene};
 use pbrdf::model::{Lamp, Pbrdf, Shape};
 use pbrdf::optics::{Geometry, Stokes};
+use std::time::Duration;
 use tr::tr;
 
 pub static SPEC: PaneSpec = PaneSpec {
@@ -38,6 +39,9 @@ pub static SPEC: PaneSpec = PaneSpec {
     has_figure: true,
     new: || Box::new(PictureView::default()),
 };
+
+/// How long a frame waits for the picture of the frame before: a quarter of the 16 ms that a frame has.
+const PATIENCE: Duration = Duration::from_millis(4);
 
 /// What the pane keeps.
 #[derive(Default)]
@@ -219,6 +223,7 @@ impl View for PictureView {
             return;
         }
         let own = key.clone();
+        self.job.set_patience(PATIENCE);
         self.job.refresh(&cx.jobs.spawner, &key, move |stopped| PaintedScene::new(own, before, stopped));
     }
 
