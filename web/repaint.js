@@ -56,27 +56,48 @@ class Mesh {
     this.scissor = scissor;
   }
 
-  // Adds where a triangle is.
-  placeOf(i, places) {
+  // Adds where the triangles from the one to the other are: those of a word or a line follow each other, and are one place.
+  placesOf(from, to, places) {
     const [indices, positions] = [this.indices.words, this.vertices.numbers];
-    const a = WORDS * indices[i];
-    const b = WORDS * indices[i + 1];
-    const c = WORDS * indices[i + 2];
-    const left = Math.min(positions[a], positions[b], positions[c]);
-    const right = Math.max(positions[a], positions[b], positions[c]);
-    const top = Math.min(positions[a + 1], positions[b + 1], positions[c + 1]);
-    const bottom = Math.max(positions[a + 1], positions[b + 1], positions[c + 1]);
-    // Most are within what is known.
-    for (let at = 0; at < places.length; at += 1) {
-      const place = places[at];
-      if (left >= place[0] && top >= place[1] && right <= place[2] && bottom <= place[3]) return;
+    let [left, top, right, bottom] = [0, 0, 0, 0];
+    for (let i = from; i < to; i += 3) {
+      const a = WORDS * indices[i];
+      const b = WORDS * indices[i + 1];
+      const c = WORDS * indices[i + 2];
+      const low = Math.min(positions[a], positions[b], positions[c]);
+      const high = Math.max(positions[a], positions[b], positions[c]);
+      const above = Math.min(positions[a + 1], positions[b + 1], positions[c + 1]);
+      const below = Math.max(positions[a + 1], positions[b + 1], positions[c + 1]);
+      const isNext = i > from && low <= right + NEAR && left <= high + NEAR && above <= bottom + NEAR && top <= below + NEAR;
+      if (isNext) {
+        left = Math.min(left, low);
+        top = Math.min(top, above);
+        right = Math.max(right, high);
+        bottom = Math.max(bottom, below);
+      } else {
+        if (i > from) add(places, [left, top, right, bottom]);
+        left = low;
+        top = above;
+        right = high;
+        bottom = below;
+      }
     }
-    add(places, [left, top, right, bottom]);
+    if (to > from) add(places, [left, top, right, bottom]);
   }
 
-  // The same of all from the one to the other.
-  placesOf(from, to, places) {
-    for (let i = from; i < to; i += 3) this.placeOf(i, places);
+  // Adds where triangles show a part of their texture, in shares of its width and height.
+  placesWith([left, top, right, bottom], places) {
+    const [indices, numbers, length] = [this.indices.words, this.vertices.numbers, this.indices.length];
+    for (let i = 0; i < length; i += 3) {
+      const a = WORDS * indices[i] + 2;
+      const b = WORDS * indices[i + 1] + 2;
+      const c = WORDS * indices[i + 2] + 2;
+      const isLeft = numbers[a] < left && numbers[b] < left && numbers[c] < left;
+      const isRight = numbers[a] > right && numbers[b] > right && numbers[c] > right;
+      const isAbove = numbers[a + 1] < top && numbers[b + 1] < top && numbers[c + 1] < top;
+      const isBelow = numbers[a + 1] > bottom && numbers[b + 1] > bottom && numbers[c + 1] > bottom;
+      if (!isLeft && !isRight && !isAbove && !isBelow) this.placesOf(i, i + 3, places);
+    }
   }
 
   // Chooses the numbers of the triangles that touch a place in points; how many these are.
@@ -127,8 +148,8 @@ function differences(before, after, places) {
     }
     for (let at = 0; at < most; at += 3) {
       if (marks[i[at]] || marks[i[at + 1]] || marks[i[at + 2]]) {
-        before.placeOf(at, places);
-        after.placeOf(at, places);
+        before.placesOf(at, at + 3, places);
+        after.placesOf(at, at + 3, places);
       }
     }
     return;
@@ -163,7 +184,8 @@ export function repaintChanges(gl) {
   let meshes = null; // of the frame that is being drawn
   let before = null; // of the one that is on the canvas
   let look = ''; // size, scale and ground of that
-  let fresh = new Set(); // textures that are others than before
+  let fresh = new Map(); // textures that are others than before, with the parts that are; without parts all of it
+  const sizes = new WeakMap(); // of textures
   let points = [1, 1];
   let ground = '';
   let [vertices, indices, texture, scissor] = [null, null, null, null];
@@ -201,10 +223,13 @@ export function repaintChanges(gl) {
     while (tail < least - head && same(before[before.length - 1 - tail], meshes[meshes.length - 1 - tail])) tail += 1;
     const pair = (a, b) => {
       const own = [];
-      if (fresh.has(b.texture)) {
+      const parts = fresh.get(b.texture);
+      if (parts === null) {
         a.placesOf(0, a.indices.length, own);
         b.placesOf(0, b.indices.length, own);
       } else {
+        // What showed a part and shows it no longer is a difference.
+        (parts || []).forEach((part) => b.placesWith(part, own));
         differences(a, b, own);
       }
       own.map((place) => seen(place, b.scissor)).filter((place) => !isEmpty(place)).forEach((place) => add(places, place));
@@ -287,7 +312,7 @@ export function repaintChanges(gl) {
     [before, look] = [meshes, now];
     [spare, last, used] = [last.reverse(), used, []];
     meshes = null;
-    fresh = new Set();
+    fresh = new Map();
   };
 
   gl.clearColor = (...color) => {
@@ -308,12 +333,21 @@ export function repaintChanges(gl) {
     texture = to;
     plain.bindTexture(target, to);
   };
-  for (const name of ['texImage2D', 'texSubImage2D']) {
-    gl[name] = (...what) => {
-      fresh.add(texture);
-      plain[name](...what);
-    };
-  }
+  gl.texImage2D = (...what) => {
+    const [, , , width, height] = what;
+    sizes.set(texture, [width, height]);
+    fresh.set(texture, null);
+    plain.texImage2D(...what);
+  };
+  // Letters that are new come into room of the texture that was empty: what shows other letters stays.
+  gl.texSubImage2D = (...what) => {
+    const [, , x, y, width, height] = what;
+    const [wide, high] = sizes.get(texture);
+    const parts = fresh.has(texture) ? fresh.get(texture) : [];
+    // A texel more, by which neighbours are smoothed.
+    if (parts) fresh.set(texture, [...parts, [(x - 1) / wide, (y - 1) / high, (x + width + 1) / wide, (y + height + 1) / high]]);
+    plain.texSubImage2D(...what);
+  };
   gl.bufferData = (target, bytes, use) => {
     if (!meshes) return plain.bufferData(target, bytes, use);
     if (target === gl.ARRAY_BUFFER) vertices = keep(bytes);

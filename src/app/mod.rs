@@ -12,6 +12,8 @@ mod page;
 mod panels;
 mod platform;
 mod plots;
+#[cfg(any(test, target_arch = "wasm32"))]
+mod rehearsal;
 mod shell;
 mod storage;
 mod tasks;

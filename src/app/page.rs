@@ -2,7 +2,8 @@
 
 use crate::app::platform;
 use crate::app::platform::probe::tell_widgets;
-use crate::app::platform::worker::{serve, warm_up};
+use crate::app::platform::worker::{Answer, do_aside, serve, warm_up};
+use crate::app::rehearsal::rehearse;
 use crate::app::shell::app::App;
 use crate::app::shell::app::autosave::{keep_work, save_on_exit};
 use crate::app::shell::app::open::begin;
@@ -19,10 +20,20 @@ use wasm_bindgen::closure::Closure;
 use wasm_bindgen::{JsCast as _, JsValue};
 use web_sys::{HtmlCanvasElement, KeyboardEvent};
 
+/// What a worker is asked that plays the first minutes with a window.
+const REHEARSE: &str = "rehearse";
+
 /// In a worker of the page, takes the page's requests. In the page, draws the window into the page's canvas `window`, and takes the page's element `loading` away. Where
 /// that cannot be, the element says why.
 pub fn run() {
-    if serve(|request, is_cancelled, tell| answer(request, &Wire { is_cancelled, tell })) {
+    let take: Answer = |request, is_cancelled, tell| {
+        if request == REHEARSE {
+            rehearse();
+            return None;
+        }
+        answer(request, &Wire { is_cancelled, tell })
+    };
+    if serve(take) {
         return;
     }
     wasm_bindgen_futures::spawn_local(async {
@@ -31,6 +42,7 @@ pub fn run() {
         match (result, loading) {
             (Ok(()), Some(loading)) => {
                 loading.remove();
+                do_aside(REHEARSE);
                 warm_up();
             }
             (Err(error), Some(loading)) => loading.set_text_content(Some(&sentence(&error))),

@@ -102,7 +102,7 @@ impl<K: PartialEq + Clone + Send + 'static, V: Send + 'static> AsyncMemo<K, V> {
             return true;
         }
         let Some((request, receive)) = ask() else { return false };
-        match spawner.start_beside(&request, |_| None, receive) {
+        match spawner.start_beside(|| Ok(request), |_| None, receive) {
             Ok(job) => self.running = Some(Running::new(key.clone(), spawner.frame(), job)),
             Err(_) => self.failed = Some(key.clone()),
         }

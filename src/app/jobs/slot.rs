@@ -64,7 +64,7 @@ impl<T: 'static, P: 'static> Slot<T, P> {
     pub fn start_beside(
         &mut self,
         spawner: &Spawner,
-        request: &str,
+        request: impl FnOnce() -> Result<String, T> + 'static,
         progress: impl Fn(&str) -> Option<P> + 'static,
         receive: impl FnOnce(&str) -> Option<T> + 'static,
     ) -> io::Result<()> {

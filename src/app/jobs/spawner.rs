@@ -57,26 +57,42 @@ impl Spawner {
         Ok(job)
     }
 
-    /// Starts a job in a worker of the page: its request goes as a text, and so do progress and result, which these functions read.
+    /// Starts a job in a worker of the page: its request goes as a text, and so do progress and result, which these functions read. The
+    /// request is made after the frame that is being drawn; where it cannot be written, it gives the result itself.
     ///
     /// # Errors
     /// The browser starts no worker.
     #[cfg(target_arch = "wasm32")]
     pub fn start_beside<T: 'static, P: 'static>(
         &self,
-        request: &str,
+        request: impl FnOnce() -> Result<String, T> + 'static,
         progress: impl Fn(&str) -> Option<P> + 'static,
         receive: impl FnOnce(&str) -> Option<T> + 'static,
     ) -> io::Result<Job<T, P>> {
         use crate::app::platform::worker::{Reply, beside};
+        use std::cell::Cell;
+        use std::rc::Rc;
         self.running.fetch_add(1, Ordering::Release);
         let (job, sender, context) = Job::new(self.wake.clone());
-        let mut ends = Some((Completion(self.clone()), sender, receive));
-        let worker = beside(request, move |reply| match reply {
+        let ends = Rc::new(Cell::new(Some((Completion(self.clone()), sender))));
+        let asked = ends.clone();
+        let ask = move || {
+            let made = request();
+            let result = match made {
+                Ok(text) => return Some(text),
+                Err(result) => result,
+            };
+            if let Some((_completion, sender)) = asked.take() {
+                let _ = sender.send(result);
+            }
+            None
+        };
+        let mut receive = Some(receive);
+        let worker = beside(ask, move |reply| match reply {
             Reply::Progress(text) => progress(&text).into_iter().for_each(|progress| context.report(progress)),
             Reply::Answer(text) => {
-                if let Some((_completion, sender, receive)) = ends.take()
-                    && let Some(result) = receive(&text)
+                if let Some((_completion, sender)) = ends.take()
+                    && let Some(result) = receive.take().and_then(|receive| receive(&text))
                 {
                     let _ = sender.send(result);
                 }

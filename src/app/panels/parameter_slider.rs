@@ -2,6 +2,7 @@
 
 use crate::app::panels::stepping::{SliderStep, step_with_arrows};
 use crate::app::panels::tooltip_right::TooltipRight as _;
+use crate::app::platform;
 use crate::app::text::estimate::estimate_text;
 use crate::app::text::i18n::translated;
 use crate::app::text::localized::Localized as _;
@@ -166,9 +167,10 @@ pub fn angle_ui(of: DirectionAngle, angle: &mut f64, slider_width: f32, ui: &mut
     keep_focus(ui.add(typed)).labelled_by(label.id);
 }
 
-/// Enter takes a typed value and leaves the field where it is: Tab goes on from there.
+/// Enter takes a typed value and leaves the field where it is: Tab goes on from there. The keyboard of a tablet, which covers the plots, goes.
 fn keep_focus(typed: Response) -> Response {
-    if typed.lost_focus() && typed.ctx.input(|input| input.key_pressed(egui::Key::Enter)) {
+    if !platform::has_fingers()
+        && typed.lost_focus() && typed.ctx.input(|input| input.key_pressed(egui::Key::Enter)) {
         typed.request_focus();
     }
     typed

@@ -13,6 +13,11 @@ pub use std::time::Instant;
 /// Whether the window is in a page: there files are gone at the next start, and nothing is measured.
 pub const IS_PAGE: bool = false;
 
+/// Whether what points at the window is a finger: on a desktop a pointer does.
+pub fn has_fingers() -> bool {
+    false
+}
+
 /// What the user's environment says about the language, such as `zh_CN.UTF-8`.
 pub fn language() -> Option<String> {
     let said = |name| std::env::var(name).ok().filter(|value| !value.is_empty());

@@ -89,6 +89,16 @@ fn take_link() -> Option<String> {
     Some(link)
 }
 
+/// Whether what points at the page is a finger: on tablets and phones.
+pub fn has_fingers() -> bool {
+    thread_local! {
+        static HAS_FINGERS: bool = web_sys::window()
+            .and_then(|window| window.match_media("(pointer: coarse)").ok().flatten())
+            .is_some_and(|query| query.matches());
+    }
+    HAS_FINGERS.with(|has_fingers| *has_fingers)
+}
+
 /// What follows the address of the page after `?`, with the `?`.
 pub fn query() -> String {
     web_sys::window().and_then(|window| window.location().search().ok()).unwrap_or_default()

@@ -4,6 +4,7 @@
 //! A worker that computes takes no messages. It learns that it is cancelled when an address of the
 //! page's own (a blob) is gone, which it asks for from time to time.
 
+use crate::app::platform::web::spawn;
 use std::cell::{Cell, RefCell};
 use std::io;
 use std::rc::Rc;
@@ -133,11 +134,12 @@ pub fn are_there() -> bool {
     !ARE_REFUSED.get()
 }
 
-/// Sends a request to a worker.
+/// Sends a request to a worker: what `ask` gives, in a task of its own after the frame that is being drawn. Where it gives none, nothing
+/// is sent.
 ///
 /// # Errors
-/// The browser starts no worker.
-pub fn beside(request: &str, mut receive: impl FnMut(Reply) + 'static) -> io::Result<Beside> {
+/// The browser starts no worker, or the page takes no tasks.
+pub fn beside(ask: impl FnOnce() -> Option<String> + 'static, mut receive: impl FnMut(Reply) + 'static) -> io::Result<Beside> {
     let refused = |_| io::Error::other("the browser starts no worker");
     let hand = IDLE.with_borrow_mut(Vec::pop).map_or_else(Hand::new, Ok).map_err(refused)?;
     let address = Blob::new().and_then(|blob| Url::create_object_url_with_blob(&blob)).map_err(refused)?;
@@ -152,8 +154,28 @@ pub fn beside(request: &str, mut receive: impl FnMut(Reply) + 'static) -> io::Re
         receive(reply);
     };
     hand.receive.replace(Some(Box::new(received)));
-    hand.send(format!("{address}\n{request}"));
+    let (done, asked, of) = (is_done.clone(), address.clone(), Rc::downgrade(&hand));
+    spawn("ask a worker", move || {
+        // Dropped meanwhile, it has no receiver any more.
+        let Some(hand) = of.upgrade().filter(|hand| hand.receive.borrow().is_some()) else { return };
+        if let Some(request) = ask() {
+            hand.send(format!("{asked}\n{request}"));
+        } else {
+            done.set(true);
+            hand.receive.take();
+            IDLE.with_borrow_mut(|idle| idle.push(hand));
+        }
+    })?;
     Ok(Beside { hand, address, is_done })
+}
+
+/// Lets a worker of its own do something whose result nobody needs.
+pub fn do_aside(request: &'static str) {
+    let kept: Rc<RefCell<Option<Beside>>> = Rc::default();
+    let done = kept.clone();
+    // It ends with what it has in memory.
+    let worker = beside(move || Some(request.to_owned()), move |_| drop(done.take()));
+    kept.replace(worker.ok());
 }
 
 impl Beside {
@@ -178,11 +200,14 @@ fn scope() -> Option<DedicatedWorkerGlobalScope> {
     js_sys::global().dyn_into().ok()
 }
 
-/// Takes requests, if this is a worker: answers each with a text. The function is given the request, whether to
-/// stop, and whom to tell progress.
-#[expect(clippy::type_complexity, reason = "the type of one function")]
-pub fn serve(answer: fn(&str, &(dyn Fn() -> bool + Sync), &(dyn Fn(&str) + Sync)) -> Option<String>) -> bool {
+/// What a worker does with a request. It is given the request, whether to stop, and whom to tell progress.
+pub type Answer = fn(&str, &(dyn Fn() -> bool + Sync), &(dyn Fn(&str) + Sync)) -> Option<String>;
+
+/// Takes requests, if this is a worker: answers each with a text.
+pub fn serve(answer: Answer) -> bool {
     let Some(scope) = scope() else { return false };
+    // A worker asks no other.
+    ARE_REFUSED.set(true);
     let take = Closure::<dyn FnMut(MessageEvent)>::new(move |event: MessageEvent| {
         let text = event.data().as_string().unwrap_or_default();
         let (address, request) = text.split_once('\n').unwrap_or(("", ""));

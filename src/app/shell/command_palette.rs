@@ -145,10 +145,14 @@ fn matching(found: Vec<Found>, english: Option<Vec<Name>>, filter: &str) -> Vec<
     ranked.into_iter().map(|(_, found)| found).collect()
 }
 
-/// How far a name is from having the words of a filter; none if one is nowhere. The beginnings of
-/// its own words fit best, then what stands inside of them, then what its menu is called.
+/// How far a name is from having the words of a filter; none if one is nowhere. The whole name fits best, then the beginnings of
+/// its own words, then what stands inside of them, then what its menu is called.
 fn misfit_of_words(name: &Name, filter: &str) -> Option<u32> {
     let [menu, text, alias] = [&name.menu, &name.text, name.alias].map(str::to_lowercase);
+    let filter = filter.trim().to_lowercase();
+    if text == filter {
+        return Some(0);
+    }
     let begins = |text: &str, word: &str| {
         let before = |at: usize| text[..at].chars().next_back();
         text.match_indices(word).any(|(at, _)| before(at).is_none_or(|c| !c.is_alphanumeric()))
@@ -159,7 +163,8 @@ fn misfit_of_words(name: &Name, filter: &str) -> Option<u32> {
         let at = places.into_iter().chain(menus).position(|fits| fits)?;
         u32::try_from(at).ok()
     };
-    filter.to_lowercase().split_whitespace().map(misfit).sum()
+    let of_words: Option<u32> = filter.split_whitespace().map(misfit).sum();
+    of_words.map(|sum| 1 + sum)
 }
 
 /// How far a name is from the letters of a filter; none if it lacks some of them in their order. A
@@ -221,6 +226,7 @@ mod tests {
         assert!(inside < misfit("Dot", "Other", "do").expect("the menu"));
         assert_eq!(misfit("Edit", "Undo", "uo"), None, "scattered letters");
         assert!(misfit("Language", "简体中文", "chin").is_some() && misfit("Export", "Curves as CSV…", "csv exp").is_some());
-        assert_eq!(misfit("Edit", "Undo", " "), Some(0));
+        assert_eq!(misfit("Edit", "Undo", " "), misfit("Edit", "Redo", ""), "without words all fit alike");
+        assert!(misfit("Panes", "Picture", "picture ") < misfit("Export", "Picture as image…", "picture "), "the whole name");
     }
 }

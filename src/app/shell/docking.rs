@@ -1,5 +1,6 @@
 //! The tiles that the panes in the middle lie in.
 
+use crate::app::platform;
 use crate::app::shell::stage::{LEAST_FOR_TWO, MOST_PRESENTED, Stage, presented_ui, show_menu_ui, single_ui};
 use crate::app::shell::theme::ground;
 use crate::app::shell::tiles::{layout_of, tree_of};
@@ -308,8 +309,8 @@ pub fn panes_ui(dock: &mut Dock, views: &mut Views, cx: &mut Cx<'_>, ui: &mut Ui
         return;
     }
     dock.note_fresh_tabs();
-    let Dock { tree, is_edited, scrolling, .. } = dock;
-    tree.ui(&mut PaneBehavior { views, cx, is_edited, scrolling, seen: on_screen }, ui);
+    let Dock { tree, is_edited, scrolling, is_passing, .. } = dock;
+    tree.ui(&mut PaneBehavior { views, cx, is_edited, scrolling, are_closable: !*is_passing, seen: on_screen }, ui);
 }
 
 /// How tiles look and behave.
@@ -318,6 +319,8 @@ struct PaneBehavior<'a, 'c> {
     cx: &'a mut Cx<'c>,
     is_edited: &'a mut bool,
     scrolling: &'a mut Vec<(PaneId, u8)>,
+    /// Whether tabs have a button that closes them: where there is room for one pane, it would be under a finger that chooses another one.
+    are_closable: bool,
     /// The panes on screen.
     seen: Vec<PaneId>,
 }
@@ -365,7 +368,19 @@ impl Behavior<PaneId> for PaneBehavior<'_, '_> {
     }
 
     fn is_tab_closable(&self, _tiles: &Tiles<PaneId>, _tile: TileId) -> bool {
-        true
+        self.are_closable
+    }
+
+    fn close_button_outer_size(&self) -> f32 {
+        if platform::has_fingers() { 20.0 } else { 12.0 }
+    }
+
+    fn close_button_inner_margin(&self) -> f32 {
+        if platform::has_fingers() { 5.0 } else { 2.0 }
+    }
+
+    fn tab_bar_height(&self, _style: &egui::Style) -> f32 {
+        if platform::has_fingers() { 30.0 } else { 24.0 }
     }
 
     fn on_tab_close(&mut self, tiles: &mut Tiles<PaneId>, tile: TileId) -> bool {

@@ -22,7 +22,9 @@ const MOST: f32 = 0.4;
 
 /// The lesson that is open, over it the panes, and notices.
 pub fn lesson_and_panes_ui(app: &mut App, ui: &mut Ui) {
-    if !is_low(ui) || app.dock.is_presented() {
+    // On a small screen the lesson stands where the sliders do.
+    let is_apart = app.dialogs.room.is_small && app.dialogs.room.embedded.is_none();
+    if app.dock.is_presented() || !(is_low(ui) || is_apart) {
         lesson_panel_ui(app, ui);
     }
     let room = ui.available_rect_before_wrap();
@@ -69,7 +71,8 @@ fn lesson_panel_ui(app: &mut App, ui: &mut Ui) {
 const ONE_LINE: f32 = 800.0;
 const BUTTONS: f32 = 440.0;
 
-fn lesson_ui(app: &mut App, ui: &mut Ui) {
+/// The open lesson: its buttons, and the texts of the step.
+pub fn lesson_ui(app: &mut App, ui: &mut Ui) {
     let App { lessons, actions, dock, derived, .. } = app;
     let (Some((lesson, step)), Some((number, index))) = (lessons.current(), lessons.open()) else { return };
     let code = i18n::current().code();
@@ -121,6 +124,12 @@ fn lesson_ui(app: &mut App, ui: &mut Ui) {
     ui.spacing_mut().scroll = egui::style::ScrollStyle::solid();
     ScrollArea::vertical().auto_shrink([false; 2]).show(ui, |ui| {
         let parts = parts(step);
+        if ui.available_width() < STACKED {
+            for (heading, text) in &parts {
+                ui.add(Label::new(run_in(heading, text.in_language(code), ui)).wrap());
+            }
+            return;
+        }
         let widths = widths(&parts, code, ui.available_width());
         ui.spacing_mut().item_spacing.x = GAP;
         ui.horizontal_top(|ui| {
@@ -148,6 +157,9 @@ fn fold_ui(is_folded: &mut bool, ui: &mut Ui) {
         *is_folded = !*is_folded;
     }
 }
+
+/// Width below which the texts stand one under the other.
+const STACKED: f32 = 480.0;
 
 /// Between lines of the panel.
 fn gap(ui: &Ui) -> f32 {

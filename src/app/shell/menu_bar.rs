@@ -85,6 +85,9 @@ fn menus_ui(app: &mut App, ui: &mut Ui) {
 /// Of a menu to the lower edge of the window, in points.
 const MARGIN: f32 = 24.0;
 
+/// Height of an entry for fingers, in points.
+const FINGER: f32 = 32.0;
+
 /// The menu of the bar that is open.
 #[derive(Clone, Copy, PartialEq)]
 struct Open {
@@ -121,6 +124,9 @@ fn bar_menu_ui(title: String, by_key: bool, ui: &mut Ui, content: impl FnOnce(&m
     popup.open_memory(set).close_behavior(behavior).info(info).show(|ui| {
         // Many lessons in a low window: the last ones are reached by the wheel.
         let room = ui.ctx().content_rect().bottom() - button.rect.bottom() - MARGIN;
+        if platform::has_fingers() {
+            ui.spacing_mut().interact_size.y = FINGER;
+        }
         // A menu of egui is 400 points high by itself.
         egui::ScrollArea::vertical().max_height(room).min_scrolled_height(room).show(ui, content)
     });

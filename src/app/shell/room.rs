@@ -14,23 +14,36 @@ pub struct Room {
     /// Whether the screen is small.
     pub is_small: bool,
     pub below: Below,
+    /// Lesson and step that the small screen has shown last.
+    pub step: Option<(usize, usize)>,
     /// What a frame in another page shows.
     pub embedded: Option<Embedded>,
 }
 
 impl Default for Room {
     fn default() -> Self {
-        Self { may_be_small: platform::IS_PAGE, is_small: false, below: Below::default(), embedded: None }
+        Self { may_be_small: platform::IS_PAGE, is_small: false, below: Below::default(), step: None, embedded: None }
     }
 }
 
-/// What stands under the pane of a small screen.
+impl Room {
+    /// Brings a lesson to the front when it opens and at each step, and the sliders when it closes.
+    pub fn follow(&mut self, step: Option<(usize, usize)>) {
+        if std::mem::replace(&mut self.step, step) != step {
+            self.below = if step.is_some() { Below::Lesson } else { Below::Sliders };
+        }
+    }
+}
+
+/// What stands under the pane of a small screen, or beside it where the screen is wide.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Below {
     #[default]
     Sliders,
     Measurements,
     Fit,
+    /// The open lesson.
+    Lesson,
     Nothing,
 }
 

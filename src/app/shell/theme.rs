@@ -59,6 +59,18 @@ pub fn install(ctx: &egui::Context) {
     }
 }
 
+/// Height of buttons and sliders for fingers, and how far beside them one may touch, in points (WCAG 2.2, 2.5.8: 24 at least).
+const FINGER: f32 = 24.0;
+const BESIDE: f32 = 12.0;
+
+/// Larger aims, for fingers.
+pub fn widen(ctx: &egui::Context) {
+    ctx.all_styles_mut(|style| {
+        style.spacing.interact_size.y = FINGER;
+        style.interaction.interact_radius = BESIDE;
+    });
+}
+
 /// A font and its name.
 type NamedFont = (&'static str, &'static [u8]);
 

@@ -1,5 +1,6 @@
 //! Jobs around fits as texts: what comes back from a worker is what a thread would have found.
 
+use crate::app::rehearsal::rehearse;
 use crate::app::shell::app::App;
 use crate::app::shell::app::posteriors::job_of_posterior;
 use crate::app::tasks::answer::answer;
@@ -315,4 +316,9 @@ fn pictures_and_audits_are_the_same_to_the_bit() {
         // Reflectances may be no numbers, which are not equal to themselves.
         assert_eq!(format!("{:?}", told_audit(&answer).expect("an audit")), format!("{:?}", Audit::new(&surface)));
     }
+}
+
+#[test]
+fn a_worker_that_rehearses_fits_finds_intervals_and_comes_to_its_end() {
+    assert!(rehearse());
 }

@@ -294,3 +294,24 @@ fn the_palette_finds_english_names_in_every_language() {
     harness.key_press(Key::Escape);
     harness.run();
 }
+
+#[test]
+fn the_name_of_a_pane_finds_the_pane_before_what_else_has_the_word() {
+    for language in Language::ALL {
+        let mut harness = harness();
+        explorer(&mut harness).window.language = language;
+        harness.run();
+        let panes = commands::items(explorer(&mut harness)).into_iter();
+        let panes = panes.filter(|item| matches!(item.action, Action::Window(WindowAction::ShowPane(_))));
+        for pane in panes.collect::<Vec<_>>() {
+            explorer(&mut harness).actions.push(Action::Window(WindowAction::OpenPalette));
+            harness.run();
+            explorer(&mut harness).dialogs.palette.filter = pane.text.to_string();
+            harness.key_press(Key::Enter);
+            // The palette orders in this frame what the next one does.
+            harness.step();
+            assert_eq!(explorer(&mut harness).actions.last(), Some(&pane.action), "{}", pane.text);
+            harness.run();
+        }
+    }
+}

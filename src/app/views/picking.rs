@@ -1,5 +1,6 @@
 //! Clicks on measured points.
 
+use crate::app::platform;
 use crate::app::text::i18n::translated;
 use crate::app::work::edit::Edit;
 use crate::app::work::open_measurement::{DataPoint, IncidenceSeries, OpenMeasurement};
@@ -12,9 +13,9 @@ const NEAR: f32 = 12.0;
 /// What hovering a point says of it.
 const MASK_HINT: &str = "Ctrl+click: mask or unmask · with Shift: the whole series";
 
-/// The same in the language of the window; nothing where nothing is measured.
+/// The same in the language of the window; nothing where nothing is measured, nor for fingers, which have no keys beside them.
 pub fn mask_hint(document: &OpenMeasurement) -> String {
-    if document.measurement.rows.is_empty() { String::new() } else { format!("\n{}", translated(MASK_HINT)) }
+    if document.measurement.rows.is_empty() || platform::has_fingers() { String::new() } else { format!("\n{}", translated(MASK_HINT)) }
 }
 
 /// Ctrl+click on a measured point masks it or takes it back; with Shift its whole series. `marks`

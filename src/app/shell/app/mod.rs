@@ -4,7 +4,7 @@ pub mod arrange;
 pub mod autosave;
 mod eframe_app;
 pub mod execute;
-mod fits;
+pub mod fits;
 mod inquiries;
 pub mod job_results;
 mod lesson;
@@ -20,6 +20,7 @@ pub mod ui;
 mod walk;
 
 use crate::app::jobs::spawner::Spawner;
+use crate::app::platform;
 use crate::app::shell::dialogs::{Dialogs, Lists};
 use crate::app::shell::docking::Dock;
 use crate::app::shell::frame_times::FrameTimes;
@@ -72,6 +73,9 @@ impl App {
     pub fn new(ctx: &egui::Context, stored: SettingsFile) -> Self {
         let SettingsFile { settings: SavedSettings { settings, surface }, layout, window } = stored;
         theme::install(ctx);
+        if platform::has_fingers() {
+            theme::widen(ctx);
+        }
         theme::set(ctx, window.theme);
         ctx.set_zoom_factor(window.zoom);
         i18n::install();

@@ -6,7 +6,7 @@ use crate::app::shell::app::arrange::adapt;
 use crate::app::shell::command_palette::palette_ui;
 use crate::app::shell::help_ui::help_ui;
 use crate::app::shell::import_ui::import_ui;
-use crate::app::shell::lesson_ui::{lesson_and_panes_ui, low_lesson_ui};
+use crate::app::shell::lesson_ui::{lesson_and_panes_ui, lesson_ui, low_lesson_ui};
 use crate::app::shell::menu_bar::menu_ui;
 use crate::app::shell::overwrite_ui::overwrite_ui;
 use crate::app::shell::presentation::presentation_ui;
@@ -15,7 +15,7 @@ use crate::app::shell::status_bar::status_ui;
 use crate::app::shell::tour::{note_panels, tour_ui};
 use crate::app::views::follow_f6;
 use crate::app::work::settings::SidePanel;
-use egui::{CentralPanel, Frame, Panel, Role, ScrollArea, Ui, WidgetInfo};
+use egui::{Align, CentralPanel, Frame, Layout, Panel, Role, ScrollArea, Ui, UiBuilder, WidgetInfo};
 use tr::tr;
 
 /// One frame.
@@ -23,6 +23,7 @@ pub fn ui(app: &mut App, ui: &mut Ui) {
     adapt(app, ui.ctx().content_rect().size());
     let room = &app.dialogs.room;
     if let Some(Embedded { panes, has_sliders }) = room.embedded.clone() {
+        low_lesson_ui(app, ui);
         if has_sliders {
             Panel::left("parameters").exact_size(PARAMETERS).resizable(false).show(ui, |ui| parameters_ui(app, ui));
         }
@@ -54,34 +55,64 @@ fn middle_ui(app: &mut App, ui: &mut Ui) {
     CentralPanel::default().frame(Frame::central_panel(ui.style()).inner_margin(2)).show(ui, |ui| lesson_and_panes_ui(app, ui));
 }
 
-/// One pane, and below it the sliders or the fit.
+/// Width of a small screen, in points, from which sliders stand beside the pane if the screen is wider than high.
+const BESIDE: f32 = 640.0;
+
+/// One pane, and beside or below it the sliders, the fit or a lesson.
 fn small_ui(app: &mut App, ui: &mut Ui) {
-    Panel::top("menu").show(ui, |ui| menu_ui(app, ui));
-    let height = ui.available_height();
+    app.dialogs.room.follow(app.lessons.open());
+    let size = ui.ctx().content_rect().size();
+    let is_beside = size.x >= BESIDE && size.x > size.y;
+    Panel::top("menu").show(ui, |ui| {
+        let row = ui.available_rect_before_wrap();
+        menu_ui(app, ui);
+        if is_beside {
+            let row = row.with_max_y(ui.min_rect().bottom());
+            ui.scope_builder(UiBuilder::new().max_rect(row).layout(Layout::right_to_left(Align::Center)), |ui| choice_ui(app, ui));
+        }
+    });
+    if is_beside {
+        if app.dialogs.room.below != Below::Nothing {
+            Panel::right("beside").exact_size(PARAMETERS.min(0.45 * size.x)).resizable(false).show(ui, |ui| below_ui(app, ui));
+        }
+    } else {
+        if app.dialogs.room.below != Below::Nothing {
+            Panel::bottom("below").exact_size(0.45 * ui.available_height()).resizable(false).show(ui, |ui| below_ui(app, ui));
+        }
+        Panel::bottom("choice").show(ui, |ui| ui.horizontal(|ui| choice_ui(app, ui)));
+    }
+    middle_ui(app, ui);
+}
+
+/// What a small screen shows besides the pane.
+fn below_ui(app: &mut App, ui: &mut Ui) {
     match app.dialogs.room.below {
-        Below::Sliders => {
-            Panel::bottom("below").exact_size(height * 0.45).resizable(false).show(ui, |ui| parameters_ui(app, ui));
-        }
+        Below::Sliders => parameters_ui(app, ui),
         Below::Measurements => {
-            Panel::bottom("below").exact_size(height * 0.55).resizable(false).show(ui, |ui| {
-                ScrollArea::vertical().auto_shrink([false; 2]).show(ui, |ui| lists_ui(app, ui));
-            });
+            ScrollArea::vertical().auto_shrink([false; 2]).show(ui, |ui| lists_ui(app, ui));
         }
-        Below::Fit => {
-            Panel::bottom("below").exact_size(height * 0.55).resizable(false).show(ui, |ui| panels::fit_ui(&mut app.split().0, ui));
-        }
+        Below::Fit => panels::fit_ui(&mut app.split().0, ui),
+        Below::Lesson => lesson_ui(app, ui),
         Below::Nothing => {}
     }
-    Panel::bottom("choice").show(ui, |ui| {
-        ui.horizontal(|ui| {
-            let below = &mut app.dialogs.room.below;
-            ui.selectable_value(below, Below::Sliders, tr!("Sliders"));
-            ui.selectable_value(below, Below::Measurements, tr!("Measurements"));
-            ui.selectable_value(below, Below::Fit, tr!("Fit"));
-            ui.selectable_value(below, Below::Nothing, tr!("Pane alone"));
-        });
-    });
-    middle_ui(app, ui);
+}
+
+/// The choice of that, from either end of a line.
+fn choice_ui(app: &mut App, ui: &mut Ui) {
+    let lesson = app.lessons.open().map(|_| (Below::Lesson, tr!("Lesson")));
+    let sides = [
+        (Below::Sliders, tr!("Sliders")),
+        (Below::Measurements, tr!("Measurements")),
+        (Below::Fit, tr!("Fit")),
+        (Below::Nothing, tr!("Pane alone")),
+    ];
+    let mut sides: Vec<(Below, String)> = lesson.into_iter().chain(sides).collect();
+    if ui.layout().prefer_right_to_left() {
+        sides.reverse();
+    }
+    for (side, name) in sides {
+        ui.selectable_value(&mut app.dialogs.room.below, side, name);
+    }
 }
 
 /// Widths in points: what the panels have by themselves and at least. Where both at their least leave the plots less than half of the
