@@ -58,10 +58,12 @@ impl Stage {
             events,
             ..RawInput::default()
         };
-        let output = ctx.run_ui(input, |screen| {
+        let mut output = ctx.run_ui(input, |screen| {
             logic(app, &screen.ctx().clone());
             ui(app, screen);
         });
+        // Nobody paints it.
+        output.textures_delta.clear();
         ctx.tessellate(output.shapes, output.pixels_per_point);
     }
 

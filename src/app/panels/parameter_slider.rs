@@ -169,8 +169,7 @@ pub fn angle_ui(of: DirectionAngle, angle: &mut f64, slider_width: f32, ui: &mut
 
 /// Enter takes a typed value and leaves the field where it is: Tab goes on from there. The keyboard of a tablet, which covers the plots, goes.
 fn keep_focus(typed: Response) -> Response {
-    if !platform::has_fingers()
-        && typed.lost_focus() && typed.ctx.input(|input| input.key_pressed(egui::Key::Enter)) {
+    if !platform::has_fingers() && typed.lost_focus() && typed.ctx.input(|input| input.key_pressed(egui::Key::Enter)) {
         typed.request_focus();
     }
     typed

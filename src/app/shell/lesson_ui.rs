@@ -73,7 +73,9 @@ const BUTTONS: f32 = 440.0;
 
 /// The open lesson: its buttons, and the texts of the step.
 pub fn lesson_ui(app: &mut App, ui: &mut Ui) {
-    let App { lessons, actions, dock, derived, .. } = app;
+    let App { lessons, actions, dock, derived, dialogs, .. } = app;
+    // A frame in another page is there for its lesson.
+    let can_leave = dialogs.room.embedded.is_none();
     let (Some((lesson, step)), Some((number, index))) = (lessons.current(), lessons.open()) else { return };
     let code = i18n::current().code();
     let count = lesson.steps.len();
@@ -86,7 +88,7 @@ pub fn lesson_ui(app: &mut App, ui: &mut Ui) {
                 egui::vec2(BUTTONS, ui.spacing().interact_size.y),
                 egui::Layout::left_to_right(egui::Align::Center),
                 |ui| {
-                    buttons_ui(number, index, count, actions, ui);
+                    buttons_ui((number, index, count), can_leave, actions, ui);
                 },
             );
         }
@@ -107,10 +109,12 @@ pub fn lesson_ui(app: &mut App, ui: &mut Ui) {
     });
     if !is_wide {
         ui.horizontal_wrapped(|ui| {
-            buttons_ui(number, index, count, actions, ui);
-            let promise = egui::WidgetText::from(RichText::new(tr!("Your own work comes back at the end.")).weak());
-            // Beside the buttons, or as a whole beneath them.
-            ui.label(promise.into_galley(ui, Some(egui::TextWrapMode::Extend), f32::INFINITY, TextStyle::Body));
+            buttons_ui((number, index, count), can_leave, actions, ui);
+            if can_leave {
+                let promise = egui::WidgetText::from(RichText::new(tr!("Your own work comes back at the end.")).weak());
+                // Beside the buttons, or as a whole beneath them.
+                ui.label(promise.into_galley(ui, Some(egui::TextWrapMode::Extend), f32::INFINITY, TextStyle::Body));
+            }
         });
     }
     if !dock.is_presented() {
@@ -209,18 +213,24 @@ fn parts_height(parts: &[(String, &Wording); 3], code: &str, room: f32, ui: &Ui)
     heading + gap(ui) + heights.fold(0.0, f32::max)
 }
 
-/// Forth, back, and out.
-fn buttons_ui(lesson: usize, step: usize, count: usize, actions: &mut Vec<Action>, ui: &mut Ui) {
+/// Forth and back in the lesson of that number, step and count of steps, and out.
+fn buttons_ui((lesson, step, count): (usize, usize, usize), can_leave: bool, actions: &mut Vec<Action>, ui: &mut Ui) {
     if ui.add_enabled(step > 0, egui::Button::new(tr!("Previous step"))).clicked() {
         actions.push(Action::ShowStep(lesson, step - 1));
     }
     if ui.button(tr!("Set up again")).on_hover_text(tr!("Sliders and views as this step wants them")).clicked() {
         actions.push(Action::ShowStep(lesson, step));
     }
-    let (name, command) =
-        if step + 1 < count { (tr!("Next step"), Action::ShowStep(lesson, step + 1)) } else { (tr!("Done"), Action::CloseLesson) };
-    if ui.button(name).clicked() {
+    let (name, command) = if step + 1 < count || !can_leave {
+        (tr!("Next step"), Action::ShowStep(lesson, step + 1))
+    } else {
+        (tr!("Done"), Action::CloseLesson)
+    };
+    if ui.add_enabled(can_leave || step + 1 < count, egui::Button::new(name)).clicked() {
         actions.push(command);
+    }
+    if !can_leave {
+        return;
     }
     if ui.button(tr!("Close lesson")).on_hover_text(tr!("Your own sliders, data, fits and panes come back")).clicked() {
         actions.push(Action::CloseLesson);
