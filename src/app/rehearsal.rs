@@ -38,8 +38,9 @@ pub fn rehearse() -> bool {
     begin(&mut app);
     let mut stage = Stage { ctx, app, size: SIZES[0], begun: Instant::now() };
     stage.frame(Vec::new());
-    stage.press(Key::F5, Modifiers::NONE);
     let is_fitted = stage.fit().is_some();
+    // There is no other worker that would do it.
+    stage.press(Key::F5, Modifiers::NONE);
     stage.keep();
     stage.touch_all();
     stage.press(Key::Z, Modifiers::COMMAND);
