@@ -2,7 +2,7 @@
 
 use crate::app::platform;
 use crate::app::platform::probe::tell_widgets;
-use crate::app::platform::worker::{Answer, do_aside, serve, warm_up};
+use crate::app::platform::worker::{Answer, do_aside, serve};
 use crate::app::rehearsal::rehearse;
 use crate::app::shell::app::App;
 use crate::app::shell::app::autosave::{keep_work, save_on_exit};
@@ -43,7 +43,6 @@ pub fn run() {
             (Ok(()), Some(loading)) => {
                 loading.remove();
                 do_aside(REHEARSE);
-                warm_up();
             }
             (Err(error), Some(loading)) => loading.set_text_content(Some(&sentence(&error))),
             (_, None) => {}

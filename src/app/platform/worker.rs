@@ -123,7 +123,7 @@ impl Hand {
 }
 
 /// Starts a worker before it is needed: loading takes a moment.
-pub fn warm_up() {
+fn warm_up() {
     if let Ok(hand) = Hand::new() {
         IDLE.with_borrow_mut(|idle| idle.push(hand));
     }
@@ -169,13 +169,15 @@ pub fn beside(ask: impl FnOnce() -> Option<String> + 'static, mut receive: impl 
     Ok(Beside { hand, address, is_done })
 }
 
-/// Lets a worker of its own do something whose result nobody needs.
+/// Lets a worker do something whose result nobody needs. It ends with what it has in memory, and another one is started before it is needed.
 pub fn do_aside(request: &'static str) {
     let kept: Rc<RefCell<Option<Beside>>> = Rc::default();
     let done = kept.clone();
-    // It ends with what it has in memory.
-    let worker = beside(move || Some(request.to_owned()), move |_| drop(done.take()));
-    kept.replace(worker.ok());
+    let received = move |_| {
+        drop(done.take());
+        warm_up();
+    };
+    kept.replace(beside(move || Some(request.to_owned()), received).ok());
 }
 
 impl Beside {
