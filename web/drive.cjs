@@ -575,4 +575,4 @@ if (require.main === module) {
     process.exit(1);
   });
 }
-module.exports = { serve, launch, opened, widget, widgets, command, drag, dragInPage, told, longestGap, shot, middle, median, FOLDER };
+module.exports = { blocked, serve, launch, opened, widget, widgets, command, drag, dragInPage, told, longestGap, shot, middle, median, FOLDER };

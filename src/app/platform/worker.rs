@@ -54,9 +54,25 @@ thread_local! {
 /// A request that a worker works on. Dropped before its answer, it ends with its worker.
 pub struct Beside {
     hand: Rc<Hand>,
-    /// Gone when the request is cancelled.
-    address: String,
-    is_done: Rc<Cell<bool>>,
+    errand: Rc<Errand>,
+}
+
+/// How far a request is.
+#[derive(Default)]
+struct Errand {
+    /// Gone when the request is cancelled or answered. Browsers ask another process for it and wait: never in a frame.
+    address: Cell<Option<String>>,
+    is_cancelled: Cell<bool>,
+    is_done: Cell<bool>,
+}
+
+impl Errand {
+    /// Takes the address away.
+    fn revoke(&self) {
+        if let Some(address) = self.address.take() {
+            let _ = Url::revoke_object_url(&address);
+        }
+    }
 }
 
 impl Hand {
@@ -142,31 +158,42 @@ pub fn are_there() -> bool {
 pub fn beside(ask: impl FnOnce() -> Option<String> + 'static, mut receive: impl FnMut(Reply) + 'static) -> io::Result<Beside> {
     let refused = |_| io::Error::other("the browser starts no worker");
     let hand = IDLE.with_borrow_mut(Vec::pop).map_or_else(Hand::new, Ok).map_err(refused)?;
-    let address = Blob::new().and_then(|blob| Url::create_object_url_with_blob(&blob)).map_err(refused)?;
-    let is_done = Rc::new(Cell::new(false));
-    let (done, of) = (is_done.clone(), Rc::downgrade(&hand));
+    let errand = Rc::new(Errand::default());
+    let (told, of) = (errand.clone(), Rc::downgrade(&hand));
     let received = move |reply: Reply| {
         let is_answer = matches!(reply, Reply::Answer(_));
-        done.set(is_answer);
+        if !matches!(reply, Reply::Progress(_)) {
+            told.revoke();
+        }
+        told.is_done.set(is_answer);
         if let Some(hand) = of.upgrade().filter(|_| is_answer) {
             IDLE.with_borrow_mut(|idle| idle.push(hand));
         }
         receive(reply);
     };
     hand.receive.replace(Some(Box::new(received)));
-    let (done, asked, of) = (is_done.clone(), address.clone(), Rc::downgrade(&hand));
+    let (asked, of) = (errand.clone(), Rc::downgrade(&hand));
     spawn("ask a worker", move || {
         // Dropped meanwhile, it has no receiver any more.
         let Some(hand) = of.upgrade().filter(|hand| hand.receive.borrow().is_some()) else { return };
-        if let Some(request) = ask() {
-            hand.send(format!("{asked}\n{request}"));
-        } else {
-            done.set(true);
+        let Some(request) = ask() else {
+            asked.is_done.set(true);
             hand.receive.take();
             IDLE.with_borrow_mut(|idle| idle.push(hand));
+            return;
+        };
+        let Ok(address) = Blob::new().and_then(|blob| Url::create_object_url_with_blob(&blob)) else {
+            hand.reply(Reply::Failed);
+            return;
+        };
+        asked.address.set(Some(address.clone()));
+        hand.send(format!("{address}\n{request}"));
+        // Cancelled before it was sent, it gives what it has at once.
+        if asked.is_cancelled.get() {
+            asked.revoke();
         }
     })?;
-    Ok(Beside { hand, address, is_done })
+    Ok(Beside { hand, errand })
 }
 
 /// Lets a worker do something whose result nobody needs. It ends with what it has in memory, and another one is started before it is needed.
@@ -183,14 +210,15 @@ pub fn do_aside(request: &'static str) {
 impl Beside {
     /// Asks the worker to stop soon; its answer still comes.
     pub fn cancel(&self) {
-        let _ = Url::revoke_object_url(&self.address);
+        self.errand.is_cancelled.set(true);
+        self.errand.revoke();
     }
 }
 
 impl Drop for Beside {
     fn drop(&mut self) {
         self.cancel();
-        if !self.is_done.get() {
+        if !self.errand.is_done.get() {
             self.hand.receive.take();
             self.hand.worker.terminate();
         }
