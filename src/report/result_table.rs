@@ -232,7 +232,9 @@ impl Writer {
         if marks.is_empty() {
             return String::new();
         }
-        let letters = marks.iter().map(|&mark| self.letter(mark).to_string()).collect::<Vec<_>>().join(",");
+        let mut letters: Vec<String> = marks.iter().map(|&mark| self.letter(mark).to_string()).collect();
+        letters.sort_unstable();
+        let letters = letters.join(",");
         match self.format {
             TableFormat::Csv | TableFormat::Plain => format!(" [{}]", letters.replace(',', "")),
             TableFormat::Markdown => format!("<sup>{letters}</sup>"),
@@ -381,7 +383,7 @@ fn quoted(cell: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{Number, Writer};
+    use super::{Mark, Number, Writer};
     use crate::report::number::{symmetric, within};
     use crate::report::result_table::TableFormat;
     use pbrdf::fit::Interval;
@@ -418,6 +420,12 @@ mod tests {
         assert_eq!(both(Some(2.04), Some(1e6)), ["2.0 … 1.0e6", r"$2.0\ldots1.0\times10^{6}$"]);
         assert_eq!(both(Some(1.2), None), ["> 1.20", "$> 1.20$"]);
         assert_eq!(both(None, Some(2.5)), ["< 2.50", "$< 2.50$"]);
+    }
+
+    #[test]
+    fn letters_of_a_cell_are_in_their_order() {
+        let writer = Writer { format: TableFormat::Plain, used: vec![Mark::Lower, Mark::Undetermined] };
+        assert_eq!(writer.marks(&[Mark::Undetermined, Mark::Lower]), " [ab]");
     }
 
     #[test]

@@ -288,6 +288,7 @@ fn cell_hint(found: &str, expected: Expected) -> Option<Hint> {
     let number = found.replace(',', ".").parse::<f64>().ok().filter(|number| number.is_finite());
     match (expected, number) {
         (Expected::Dolp, Some(PERCENT_FROM..=100.0)) => Some(Hint::NameDolpPercent),
+        (Expected::Dolp, Some(number)) if number > 1.0 && number < PERCENT_FROM => Some(Hint::PercentOrLeaveOut),
         (Expected::Dolp | Expected::DolpPercent | Expected::Brdf, Some(_)) => Some(Hint::LeaveOut),
         _ if found.contains(',') && found.contains('.') => first_mark(found).map(Hint::NameThousands),
         _ => None,

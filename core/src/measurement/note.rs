@@ -38,6 +38,11 @@ impl std::fmt::Display for LineList {
     }
 }
 
+/// `1 row`, `3 rows`.
+fn counted(count: usize, noun: &str) -> String {
+    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
+}
+
 /// A notice of a reader: nothing is left out or changed silently.
 #[derive(Debug, Clone, PartialEq)]
 pub enum ImportNote {
@@ -48,7 +53,7 @@ pub enum ImportNote {
     },
     /// Cells that hold a word for "not measured", nothing, or in a masked row an impossible value.
     NotMeasured(LineList),
-    /// Rows at |θr| ≥ 90°, kept as masked.
+    /// Rows at |θr| ≥ 90°, where the model ends: no row of the measurement, but written with it, masked.
     BeyondHorizon(LineList),
     /// Rows in which every cell is empty.
     BlankRows(LineList),
@@ -156,10 +161,10 @@ impl std::fmt::Display for ImportNote {
                 write!(f, "ignored the {noun} {}", names.iter().map(named).collect::<Vec<_>>().join(", "))
             }
             Self::NotMeasured(lines) => {
-                write!(f, "{lines} without a value; they are kept, and masked where nothing else was measured")
+                write!(f, "{lines} without a value; kept, and masked where nothing else was measured")
             }
-            Self::BeyondHorizon(lines) => write!(f, "{lines} at |θr| ≥ 90°; they are kept as masked"),
-            Self::BlankRows(lines) => write!(f, "{lines} without any cell filled; they are skipped"),
+            Self::BeyondHorizon(lines) => write!(f, "{lines} at |θr| ≥ 90°, where the model ends; left out, and written back as masked"),
+            Self::BlankRows(lines) => write!(f, "{lines} without any cell filled; skipped"),
             Self::SkippedLines(lines) => {
                 let noun = if lines.count == 1 { "line that is" } else { "lines that are" };
                 write!(f, "skipped {} {noun} neither header nor data: {}", lines.count, lines.numbers())
@@ -180,9 +185,9 @@ impl std::fmt::Display for ImportNote {
                 f.write_str("all θr are negative, which is the backscatter side; if it is the forward side, use --flip")
             }
             Self::FilledDown => f.write_str("empty cells of the first columns are filled with the value above"),
-            Self::IgnoredRows { name, count } => write!(f, "ignored {count} rows of {name}"),
+            Self::IgnoredRows { name, count } => write!(f, "ignored {} of {name}", counted(*count, "row")),
             Self::DepolarisationNotApplied { count } => {
-                write!(f, "{count} rows of depolarisation (dpolE) are named in the metadata, not applied to DoLP")
+                write!(f, "depolarisation (dpolE, {}) is named in the metadata, not applied to DoLP", counted(*count, "row"))
             }
             Self::NearestWavelength { wanted_nm, taken_nm } => {
                 let taken = taken_nm.iter().map(f64::to_string).collect::<Vec<_>>().join(" and ");
@@ -194,10 +199,10 @@ impl std::fmt::Display for ImportNote {
             Self::AssumedGrids { names } => {
                 write!(f, "gives no angles for {}; they are taken to be even over their whole range", names.join(", "))
             }
-            Self::NoValue { count } => write!(f, "left out {count} geometries without a value"),
-            Self::Transmission { count } => write!(f, "left out {count} rows of transmission"),
-            Self::BrdfBelowZero { count } => write!(f, "left out {count} rows where the BRDF is below 0"),
-            Self::DolpAboveOne { count } => write!(f, "left out the DoLP of {count} geometries where it is above 1"),
+            Self::NoValue { count } => write!(f, "left out {} without a value", counted(*count, "direction")),
+            Self::Transmission { count } => write!(f, "left out {} of transmission", counted(*count, "row")),
+            Self::BrdfBelowZero { count } => write!(f, "left out {} where the BRDF is below 0", counted(*count, "row")),
+            Self::DolpAboveOne { count } => write!(f, "left out the DoLP of {} where it is above 1", counted(*count, "direction")),
         }
     }
 }

@@ -380,7 +380,8 @@ fn recent_files(app: &App) -> impl Iterator<Item = Command> {
         )
     });
     let kept = app.persistence.kept.iter().map(|work| {
-        let about = tr!("{0} measurements, {1} fits; what is open now is kept", work.names.len(), work.fits);
+        let measurements = tr!("one measurement" | "{n} measurements" % work.names.len());
+        let about = tr!("{0}, {1}; what is open now is kept", measurements, tr!("one fit" | "{n} fits" % work.fits));
         let names: Vec<&str> = work.names.iter().map(String::as_str).chain([about.as_str()]).collect();
         item(Action::OpenSession(work.path.clone()), Menu::Recent, work_title(work).into(), names.join("\n").into(), Availability::Possible)
     });

@@ -51,6 +51,13 @@ pub struct OverwritePrompt {
     pub command: Action,
 }
 
+impl Dialogs {
+    /// Whether one of them covers the window and has the keys.
+    pub fn is_asking(&self) -> bool {
+        self.palette.is_open || self.help.is_some() || self.import.is_some() || self.overwrite.is_some()
+    }
+}
+
 impl Palette {
     /// Opens it empty.
     pub fn open(&mut self) {

@@ -93,9 +93,10 @@ fn alike_ui(alike: &mut AlikeFiles, ui: &mut Ui) {
         return;
     }
     let text = if alike.opened.is_empty() {
-        tr!("also apply to the other {} files of this folder", paths.len())
+        tr!("also apply to the other file of this folder" | "also apply to the other {n} files of this folder" % paths.len())
     } else {
-        tr!("also apply to the other {} files that were opened with it", paths.len())
+        tr!("also apply to the other file that was opened with it"
+            | "also apply to the other {n} files that were opened with it" % paths.len())
     };
     let name = |path: &PathBuf| path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     let mut names: Vec<String> = paths.iter().take(NAMED).map(name).collect();
@@ -229,7 +230,11 @@ fn answer_ui(import: &ImportDialog, ui: &mut Ui) -> bool {
 
 fn rows_ui(imported: &Imported, is_all: bool, ui: &mut Ui) {
     let rows = imported.measurements.iter().flat_map(|measurement| &measurement.rows);
-    ui.weak(if is_all { tr!("The first of {} rows as they will be:", imported.rows()) } else { tr!("The first rows as they will be:") });
+    ui.weak(if is_all {
+        tr!("The one row as it will be:" | "The first of {n} rows as they will be:" % imported.rows())
+    } else {
+        tr!("The first rows as they will be:")
+    });
     Grid::new("answer").num_columns(5).spacing([18.0, 2.0]).show(ui, |ui| {
         for heading in ["θi", "θr", "Δφ", "DoLP", "BRDF / sr⁻¹"] {
             ui.strong(heading);

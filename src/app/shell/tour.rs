@@ -49,8 +49,8 @@ pub fn note_panels(ctx: &egui::Context, panels: [f32; 2]) {
 
 /// The step that is shown, while the tour is.
 pub fn tour_ui(app: &mut App, ui: &mut Ui) {
-    // A talk and a page of a course have not the panels that the tour points at.
-    if app.dock.is_presented() || app.dialogs.room.embedded.is_some() {
+    // A talk and a page of a course have not the panels that the tour points at; under a dialog it would hold the keys.
+    if app.dock.is_presented() || app.dialogs.room.embedded.is_some() || app.dialogs.is_asking() {
         return;
     }
     let Some((step, (spot, heading, text))) = app.dialogs.tour.and_then(|step| Some((step, *STEPS.get(step)?))) else { return };

@@ -185,6 +185,7 @@ pub struct CompareModels {
 
 impl Work for CompareModels {
     type Output = ComparedModels;
+    /// The key of the model.
     type Progress = &'static str;
 
     fn run(self, watch: &impl Watch<&'static str>) -> ComparedModels {
@@ -208,6 +209,7 @@ pub struct CompareTogether {
 
 impl Work for CompareTogether {
     type Output = ComparedModels;
+    /// The key of the model.
     type Progress = &'static str;
 
     fn run(self, watch: &impl Watch<&'static str>) -> ComparedModels {
@@ -223,7 +225,7 @@ impl Work for CompareTogether {
     }
 }
 
-/// The fits of a ladder of models, until the job is cancelled; it reports the name of the model that is being fitted.
+/// The fits of a ladder of models, until the job is cancelled; it reports the key of the model that is being fitted.
 fn ladder<P: SpecialCases, E>(
     problems: &[(&'static Preset, Result<P, E>)],
     watch: &impl Watch<&'static str>,
@@ -234,7 +236,7 @@ fn ladder<P: SpecialCases, E>(
         if watch.is_cancelled() {
             return None;
         }
-        watch.report(problems[place].0.name);
+        watch.report(problems[place].0.key);
         let begun = Instant::now();
         let observer = Observer { clock: &|| milliseconds_since(begun), cancelled: &|| watch.is_cancelled(), ..Observer::NONE };
         Some(fit(problem, observer))

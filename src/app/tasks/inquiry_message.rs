@@ -6,7 +6,7 @@ use crate::app::storage::session::Session;
 use crate::app::tasks::bits::{ChoiceBits, EndBits, WalkBits};
 use crate::app::tasks::fit_work::{Fitted, Work as _};
 use crate::app::tasks::inquiry_work::{ChooseAngles, FindEvidence, FollowWeakest, NotChosen};
-use crate::app::tasks::messages::{Answer, Message, WorkOrder, of_fitted, request, saved};
+use crate::app::tasks::messages::{Answer, Message, WorkOrder, model_key, of_fitted, request, saved};
 use crate::app::tasks::wire::Wire;
 use crate::app::work::fit_history::FitEntry;
 use crate::app::work::predicted_errors::PlannedAngles;
@@ -14,7 +14,7 @@ use crate::app::work::weakest_walk::WeakestWalk;
 use crate::files::packed::{numbers_of, text_of};
 use pbrdf::fit::posterior::LogEvidence;
 use pbrdf::fit::{Edge, FitProblem as _, Geodesic, GeodesicEnd, GeodesicPoint, GeodesicWay, JointUnknown};
-use pbrdf::model::{PRESETS, Parameter, Parameters};
+use pbrdf::model::{Parameter, Parameters};
 use std::sync::Arc;
 
 /// The unknowns of a fit, the same on both sides.
@@ -142,7 +142,7 @@ impl Message for FindEvidence {
     }
 
     fn progress(&self) -> impl Fn(&str) -> Option<&'static str> + 'static {
-        |key| PRESETS.iter().find(|preset| preset.key == key).map(|preset| preset.key)
+        model_key
     }
 }
 

@@ -22,7 +22,7 @@ use crate::app::work::posterior::PosteriorOptions;
 use crate::app::work::surface::Surface;
 use pbrdf::fit::posterior::Prior;
 use pbrdf::fit::{Bootstrap, BootstrapEstimate, Interval, JointProblem, Problem, Profile, ProfilePoint, Starts, TracePoint};
-use pbrdf::model::{Model, PRESETS, Parameter, Parameters, Preset};
+use pbrdf::model::{Model, Parameter, Parameters, Preset};
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 use std::sync::Arc;
@@ -297,9 +297,9 @@ fn compared_fits<P, E>(
     Some(problems.iter().map(|(preset, _)| fit(preset)).collect())
 }
 
-/// The name of a model, as progress.
-fn model_name(text: &str) -> Option<&'static str> {
-    PRESETS.iter().find(|preset| preset.name == text).map(|preset| preset.name)
+/// The key of a model, as progress.
+pub fn model_key(text: &str) -> Option<&'static str> {
+    Preset::from_key(text).map(|preset| preset.key)
 }
 
 impl Message for CompareModels {
@@ -321,7 +321,7 @@ impl Message for CompareModels {
     }
 
     fn progress(&self) -> impl Fn(&str) -> Option<&'static str> + 'static {
-        model_name
+        model_key
     }
 }
 
@@ -349,7 +349,7 @@ impl Message for CompareTogether {
     }
 
     fn progress(&self) -> impl Fn(&str) -> Option<&'static str> + 'static {
-        model_name
+        model_key
     }
 }
 

@@ -41,6 +41,20 @@ impl<P> Watch<P> for Quiet {
     fn report(&self, _: P) {}
 }
 
+/// Listens to the model that is being fitted.
+#[derive(Default)]
+struct Listening(std::sync::Mutex<Vec<&'static str>>);
+
+impl Watch<&'static str> for Listening {
+    fn is_cancelled(&self) -> bool {
+        (Observer::NONE.cancelled)()
+    }
+
+    fn report(&self, key: &'static str) {
+        self.0.lock().expect("nobody panics").push(key);
+    }
+}
+
 /// The result by way of a worker.
 fn sent<J: Message>(job: J) -> J::Output {
     let request = job.request().expect("it can be written");
@@ -202,7 +216,12 @@ fn models_are_compared_the_same_way() {
         });
         CompareModels { about: open.clone(), problems: problems.collect(), search: Search { starts: Starts::One, seed: 0 } }
     };
-    let (sent, run) = (sent(job()), job().run(&Quiet));
+    let heard = Listening::default();
+    let (sent, run) = (sent(job()), job().run(&heard));
+    // Only a key becomes the name that the window shows.
+    let mut heard = heard.0.into_inner().expect("nobody panics");
+    heard.sort_unstable_by_key(|key| PRESETS.iter().position(|preset| preset.key == *key));
+    assert_eq!(heard, PRESETS.iter().take(3).map(|preset| preset.key).collect::<Vec<_>>());
     assert_eq!((&sent.numbers, sent.models.len()), (&run.numbers, run.models.len()));
     for (one, other) in sent.models.iter().zip(&run.models) {
         assert_eq!(one.preset.key, other.preset.key);

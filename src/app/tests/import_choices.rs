@@ -2,7 +2,7 @@
 
 use crate::app::shell::app::App;
 use crate::app::tests::{explorer, harness, wait};
-use crate::app::views::action::Action;
+use crate::app::views::action::{Action, WindowAction};
 use crate::app::work::edit::Edit;
 use crate::app::work::settings::WindowSettings;
 use egui::accesskit::Role;
@@ -137,6 +137,22 @@ fn other_files_of_the_folder_open_with_the_same_answers_where_that_is_asked_for(
             assert_eq!(explorer(&mut harness).work.active().measurement.metadata("imported_from"), Some("b.csv"));
         }
     }
+}
+
+#[test]
+fn the_tour_of_the_first_start_waits_until_a_table_is_answered() {
+    let (_folder, paths) = folder_of(&[("a.csv", "AOI,View,DoLP %\n30,20,12\n30,40,14\n"), ("b.csv", "AOI,View,DoLP %\n40,20,12\n")]);
+    let mut harness = harness();
+    explorer(&mut harness).actions.push(Action::Window(WindowAction::ShowTour(0)));
+    wait(&mut harness);
+    assert!(harness.query_by_label("Skip the tour").is_some());
+    open(&mut harness, paths);
+    harness.get_by_label("also apply to the other file that was opened with it");
+    assert!(harness.query_by_label("Skip the tour").is_none(), "it would lie over the dialog, and hold the key Enter");
+    harness.key_press(egui::Key::Enter);
+    wait(&mut harness);
+    assert_eq!(names(&mut harness), ["a.csv", "b.csv"]);
+    assert!(harness.query_by_label("Skip the tour").is_some());
 }
 
 #[test]

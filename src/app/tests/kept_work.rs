@@ -2,12 +2,12 @@
 //! session that is opened.
 
 use crate::app::shell::app::App;
-use crate::app::shell::app::autosave::{keep_work, save_on_exit};
+use crate::app::shell::app::autosave::{keep_work, save_on_exit, work_title};
 use crate::app::shell::app::title::title;
 use crate::app::shell::commands;
 use crate::app::shell::commands::Menu;
 use crate::app::storage::export::ExportKind;
-use crate::app::storage::kept_work::WorkFolder;
+use crate::app::storage::kept_work::{KeptWork, WorkFolder};
 use crate::app::tests::{edit, explorer, harness, wait};
 use crate::app::views::action::Action;
 use crate::app::work::edit::Edit;
@@ -50,6 +50,16 @@ fn file(folder: &Path, name: &str) -> PathBuf {
     let path = folder.join(name);
     std::fs::write(&path, "theta_i,theta_r,dolp\n30,10,0.1\n30,20,0.2\n").expect("a file");
     path
+}
+
+#[test]
+fn work_whose_names_are_not_known_is_called_by_its_time() {
+    let of = |names: &[&str]| {
+        let names = names.iter().map(|&name| name.to_owned()).collect();
+        work_title(&KeptWork { path: PathBuf::new(), changed: std::time::SystemTime::UNIX_EPOCH, names, fits: 0 })
+    };
+    assert!(of(&["a.csv", "b.csv"]).ends_with(": a.csv, b.csv"));
+    assert!(of(&[]).ends_with(|last: char| last.is_ascii_digit()), "{}", of(&[]));
 }
 
 #[test]

@@ -248,12 +248,17 @@ impl OpenMeasurement {
         let simulated = self.measurement.metadata("simulated") == Some("true");
         let mut parts = vec![self.title()];
         parts.extend(self.measurement.metadata("material").map(str::to_owned));
-        parts.extend(self.measurement.metadata("wavelength_nm").map(|wavelength| format!("{wavelength} nm")));
+        let wavelength = self.measurement.metadata("wavelength_nm").map(|wavelength| format!("{wavelength} nm"));
+        // One of several of a file has it in its name.
+        parts.extend(wavelength.filter(|wavelength| !parts[0].ends_with(wavelength)));
         if simulated && !self.name.contains("simulated") {
             parts.push(tr!("simulated"));
         }
         let rows = self.measurement.rows.len();
-        parts.push(if self.mask.is_empty() { tr!("{} rows", rows) } else { tr!("{0} rows, {1} masked", rows, self.mask.len()) });
+        parts.push(match self.mask.len() {
+            0 => tr!("one row" | "{n} rows" % rows),
+            masked => tr!("one row, masked" | "{n} rows, {0} masked" % rows, masked),
+        });
         parts.join(" · ")
     }
 }

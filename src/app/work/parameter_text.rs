@@ -13,7 +13,8 @@ pub fn text(parameters: &Parameters) -> String {
 /// Puts the parameters that a text names in the place of those at hand, or says why not.
 pub fn read(text: &str, before: Parameters) -> Result<Parameters, String> {
     let refuse = |reason: &str| {
-        let start: String = text.trim().chars().take(40).collect();
+        let text = text.trim();
+        let start = text.char_indices().nth(40).map_or_else(|| text.to_owned(), |(end, _)| format!("{}…", &text[..end]));
         tr!("The pasted text {0} is no set of parameters such as n=2.07, k=2.9: {1}.", format!("{start:?}"), reason)
     };
     let assignments = assignments_from_text(&plain(text)).map_err(|error| refuse(&error.localized()))?;
@@ -119,6 +120,7 @@ mod tests {
         for (given, expected) in [
             ("", "empty"),
             ("hello", "expected name=value"),
+            ("No file dialog can open: there is neither a portal", "there is neithe…\""),
             ("m=3", "\"m\" is no parameter"),
             ("n=abc", "not a finite number"),
             ("n=1, k=-2", "k = -2 is not allowed"),

@@ -232,7 +232,7 @@ fn minima_ui(report: &FitResult, ui: &mut Ui) {
         return;
     }
     let (starts, hits) = (report.course.starts(), report.course.hits_of_best());
-    let title = tr!("{0} starts, {1} in the best basin", starts, hits);
+    let title = tr!("one start" | "{n} starts, {0} in the best basin" % starts, hits);
     egui::CollapsingHeader::new(title).id_salt("starts").show(ui, |ui| {
         if let Some(share) = report.course.unseen_share() {
             let text = tr!(

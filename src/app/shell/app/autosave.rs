@@ -73,7 +73,9 @@ pub fn work_title(work: &KeptWork) -> String {
     if work.names.len() > MOST_NAMES {
         names.push('…');
     }
-    tr!("Work of {0}: {1}", platform::local_time(work.changed), names)
+    let time = platform::local_time(work.changed);
+    // Of a damaged file the names are not known.
+    if names.is_empty() { tr!("Work of {}", time) } else { tr!("Work of {0}: {1}", time, names) }
 }
 
 /// Keeps the work as it is now, because other work is about to take its place.

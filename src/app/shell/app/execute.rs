@@ -193,7 +193,8 @@ fn copy_results(app: &mut App, ctx: &egui::Context, format: TableFormat) -> Resu
 /// The table of the pane Data to the clipboard.
 fn copy_table(app: &mut App, ctx: &egui::Context) {
     ctx.copy_text(table_text(&app.work));
-    app.toasts.info(tr!("{} rows are copied; paste them into a spreadsheet.", app.work.active().measurement.rows.len()));
+    let rows = app.work.active().measurement.rows.len();
+    app.toasts.info(tr!("One row is copied; paste it into a spreadsheet." | "{n} rows are copied; paste them into a spreadsheet." % rows));
 }
 
 fn reset_layout(app: &mut App) {

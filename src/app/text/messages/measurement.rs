@@ -43,6 +43,9 @@ impl Localized for Hint {
         match self {
             Self::Import => tr!("a table of another form needs at least two columns of numbers"),
             Self::NameDolpPercent => tr!("if the column holds percent, name it dolp_percent"),
+            Self::PercentOrLeaveOut => {
+                tr!("if the column holds percent, name it dolp_percent; a row with # before it, or with 1 in a column masked, is left out")
+            }
             Self::NameThousands(separator) => {
                 tr!("write one decimal mark in all cells, or choose “{}” as what separates thousands", separator)
             }
@@ -289,13 +292,13 @@ impl Localized for ImportNote {
                 if names.len() == 1 { tr!("Ignored the column {}.", list) } else { tr!("Ignored the columns {}.", list) }
             }
             Self::NotMeasured(lines) => {
-                tr!("{}: without a value; they are kept, and masked where nothing else was measured.", lines.localized())
+                tr!("{}: without a value; kept, and masked where nothing else was measured.", lines.localized())
             }
-            Self::BeyondHorizon(lines) => tr!("{}: at |θr| ≥ 90°; they are kept as masked.", lines.localized()),
-            Self::BlankRows(lines) => tr!("{}: without any cell filled; they are skipped.", lines.localized()),
-            Self::SkippedLines(lines) => {
-                tr!("{}: neither header nor data; they are skipped.", lines.localized())
+            Self::BeyondHorizon(lines) => {
+                tr!("{}: at |θr| ≥ 90°, where the model ends; left out here, and saved as masked rows.", lines.localized())
             }
+            Self::BlankRows(lines) => tr!("{}: without any cell filled; skipped.", lines.localized()),
+            Self::SkippedLines(lines) => tr!("{}: neither header nor data; skipped.", lines.localized()),
             Self::ZeroSigma(lines) => tr!("{}: a standard deviation of 0, which is taken as not stated.", lines.localized()),
             Self::BiasedDolp(lines) => tr!(
                 "{}: the DoLP is of the size of its error; there noise makes it too large, and nothing is subtracted.",
@@ -311,7 +314,7 @@ impl Localized for ImportNote {
                 tr!("All θr are negative, which is the backscatter side; turn the sign of θr if it is the forward side.")
             }
             Self::FilledDown => tr!("Empty cells of the first columns are filled with the value above."),
-            Self::IgnoredRows { name, count } => tr!("Ignored {0} rows of {1}.", count, name),
+            Self::IgnoredRows { name, count } => tr!("Ignored one row of {0}." | "Ignored {n} rows of {0}." % *count, name),
             Self::DepolarisationNotApplied { .. } => tr!("Depolarisation (dpolE) is named in the metadata, not applied to DoLP."),
             Self::NearestWavelength { wanted_nm, taken_nm } => {
                 let taken: Vec<String> = taken_nm.iter().map(f64::to_string).collect();
