@@ -55,8 +55,13 @@ fn quantity(
         )));
     }
     if !(0.0..=maximum).contains(&value) {
-        let percent = matches!(expected, Expected::Dolp) && (2.0..=100.0).contains(&value);
-        let hint = if percent { "divide percent by 100" } else { "leave the row out, or mask it" };
+        let may_be_percent = matches!(expected, Expected::Dolp) && (1.0..=100.0).contains(&value);
+        let hint = match value {
+            _ if !may_be_percent => "leave the row out, or mask it",
+            // Not far above 1 it may be noise as well.
+            ..2.0 => "divide percent by 100; if it is noise, leave the row out, or mask it",
+            _ => "divide percent by 100",
+        };
         return if masked { Ok(None) } else { Err(refused(format_args!("{name}[{row}] = {value}, expected {expected}; {hint}"))) };
     }
     let sigma = cell(sigmas, row);

@@ -24,7 +24,7 @@ def number(row, column):
 
 
 def surface(row):
-    return {name: number(row, name) for name in NAMES}
+    return {name: number(row, name) for name in pbrdf.models()[row["distribution"]].parameters}
 
 
 def angles(row):
@@ -169,7 +169,7 @@ def test_arrays_with_gaps_in_memory_are_read_as_they_are_meant():
         (("cauchy", {}, [1, 2], [1, 2, 3]), r"do not broadcast: theta_i \(2,\), theta_r \(3,\), dphi \(\); add an axis"),
         (("cauchy", {}, "steep", 30), "theta_i is 'steep'; expected numbers"),
         (("cauchy", {}, [[1, 2], [3]], 30), "expected numbers, all rows of one length"),
-        (("cauchy", {}, 1 + 2j, 30), "expected numbers"),
+        (("cauchy", {}, 1 + 2j, 30), "expected real numbers"),
         (("cauchy", {"m": 1}, 30, 30), '"m" is no parameter; expected one of n, k,'),
         (("cauchy", {"n": math.nan}, 30, 30), "n = NaN is not allowed"),
         (("cauchy", {"sigma": -1}, 30, 30), "sigma = -1 is not allowed"),
@@ -191,3 +191,26 @@ def test_an_unknown_derivative_is_refused():
         pbrdf.evaluate("cauchy", {}, 30, 30, gradients=["n", "m"])
     with pytest.raises(pbrdf.PbrdfError, match="theta_i = 95"):
         pbrdf.prepare(95, 30)
+
+
+def test_a_value_that_the_model_does_not_have_is_warned_of():
+    for call in (
+        lambda: pbrdf.evaluate("gauss", {"n": 2.0, "q": 2.5}, 30, 40),
+        lambda: pbrdf.prepare(30, 40).evaluate("gauss", {"q": 2.5}),
+        lambda: pbrdf.picture("gauss", {"q": 2.5}, size=8),
+        lambda: pbrdf.simulate("gauss", {"q": 2.5}, 30, 40),
+    ):
+        with pytest.warns(UserWarning, match="the model gauss has no q; what is given for it changes nothing") as caught:
+            call()
+        # Where the user wrote it.
+        assert caught[0].filename == __file__
+    with pytest.raises(pbrdf.PbrdfError, match='"m" is no parameter'):
+        pbrdf.evaluate("gauss", {"m": 2.5}, 30, 40)
+
+
+def test_values_by_name_come_from_whatever_has_keys():
+    pandas = pytest.importorskip("pandas")
+    expected = pbrdf.evaluate("cauchy", {"n": 2.0, "k": 2.5}, 30, 40).dolp
+    assert pbrdf.evaluate("cauchy", pandas.Series({"n": 2.0, "k": 2.5}), 30, 40).dolp == expected
+    with pytest.raises(pbrdf.PbrdfError, match="expected values by name"):
+        pbrdf.evaluate("cauchy", [2.0, 2.5], 30, 40)

@@ -120,8 +120,75 @@ def test_measurements_and_results_go_to_other_processes(example):
         there = executor.submit(pbrdf.fit, data[0], "specular", starts=1).result()
     assert without_times(there.to_dict()) == without_times(here.to_dict())
     assert str(there) == str(here) and there.undetermined == here.undetermined and there.values() == here.values()
-    with pytest.raises(pbrdf.PbrdfError, match="comes from another process and lacks its problem"):
-        pbrdf.posterior(there)
+
+
+def test_a_result_from_another_process_is_drawn_from_and_plotted(example):
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    here = pbrdf.fit(pbrdf.read(example), "specular", starts=2, intervals="linear")
+    there = pickle.loads(pickle.dumps(pickle.loads(pickle.dumps(here))))
+    drawn = [pbrdf.posterior(result, draws=200, chains=2).draws["n"] for result in (here, there)]
+    assert np.array_equal(*drawn)
+    assert there.plot() is not None
+    matplotlib.pyplot.close("all")
+
+
+def test_a_parameter_that_is_not_there_is_said():
+    data = [simulated(name="A", n=1.8), simulated(name="B", n=2.2)]
+    result = pbrdf.fit(data, own="n", fix={"ks": 1.0}, starts=1, intervals="none")
+    with pytest.raises(KeyError, match=r"each measurement has its own n: ask for 'n@A' or 'n@B', or for sets\[0\].parameters\['n'\]"):
+        result.parameters["n"]
+    with pytest.raises(KeyError, match="there is no parameter 'm'; there are "):
+        result.parameters["m"]
+    assert result.parameters.get("n") is None and "n" not in result.parameters
+    with pytest.raises(KeyError, match="there is no parameter 'm'; there are "):
+        result.sets[0].parameters["m"]
+
+
+def test_parameters_of_a_result_are_values_of_a_surface():
+    result = pbrdf.fit(simulated(), starts=1, intervals="none")
+    assert pbrdf.evaluate("cauchy", result.parameters, 60, 40).dolp == result.evaluate(60, 40).dolp
+    assert float(result.parameters["n"]) == result.parameters["n"].value
+    again = pbrdf.fit(simulated(), start=result.parameters, fix=result.parameters, intervals="none")
+    assert again.values() == result.values()
+    with pytest.raises(pbrdf.PbrdfError, match=r"parameters is a FitResult; expected values by name.*; its values\(\) returns them"):
+        pbrdf.evaluate("cauchy", result, 60, 40)
+
+
+def test_a_range_without_rows_is_said():
+    data = [simulated(name="A"), pbrdf.Measurement(30, [-10, -20, 5], dolp=[0.1, 0.1, 0.1], name="B")]
+    with pytest.raises(pbrdf.PbrdfError, match="no row lies in the range.* θr 80° to 85°; the rows have θi 30° to 70° and θr 0° to 70°"):
+        pbrdf.fit(data[0], theta_r_range=(80, 85))
+    with pytest.warns(UserWarning, match="B: no row lies in the range.*; the rows have θi 30° to 30° and θr -20° to 5°"):
+        assert pbrdf.fit(data, theta_r_range=(10, 85), starts=1, intervals="none").objective is not None
+    with pytest.raises(pbrdf.PbrdfError, match="no row lies in the range that is fitted, θi 80° to 90°"):
+        pbrdf.fit(data, theta_i_range=(80, 90))
+
+
+def test_help_knows_every_attribute():
+    found = [pbrdf.FitResult.parameters, pbrdf.FitResult.sets, pbrdf.Posterior.draws, pbrdf.Posterior.summary, pbrdf.Posterior.log_evidence]
+    found += [pbrdf.FitTable.columns, pbrdf.PixelFit.fit, pbrdf.PixelFit.used, pbrdf.PixelFit.s0_residuals, pbrdf.PixelFit.noise_polarised]
+    assert all(isinstance(attribute, property) and attribute.__doc__ for attribute in found)
+    result = pbrdf.fit(simulated(), starts=1, intervals="none")
+    # What is made in __init__ alone has no place in help().
+    for one in (result, pbrdf.posterior(result, draws=200, chains=1), pbrdf.map_fits([simulated()], starts=1, intervals="none")):
+        assert [name for name in vars(one) if not name.startswith("_")] == []
+
+
+def test_what_notebooks_show():
+    data = [simulated(name="A", n=1.8), simulated(name="<B>", n=2.2)]
+    joint = pbrdf.fit(data, own="n", fix={"ks": 1.0, "c": 0.0}, starts=1, intervals="linear")
+    page = joint._repr_html_()
+    assert "<th>A</th><th>&lt;B&gt;</th>" in page and joint.sets[1].parameters["n"].text in page
+    # What is shared stands once.
+    assert page.count(f"<td>{joint.parameters['k'].text}</td>") == 1
+    rows = data[1]._repr_html_()
+    assert "24 rows" in rows and "and 12 more rows" in rows and "<td>30</td>" in rows and "dolp_sigma" not in rows
+    sample = pbrdf.posterior(pbrdf.fit(data[0], "specular", starts=1, intervals="none"), draws=200, chains=2)
+    assert f"{sample.summary['n'].q50:.4g}" in sample._repr_html_() and sample.verdict.split(";")[0] in sample._repr_html_()
+    chosen = pbrdf.choose_angles("specular", {"n": 2.07, "k": 2.9}, range(10, 90, 20), range(0, 80, 20), count=6, fix="ks")
+    assert "<th>θi / °</th>" in chosen._repr_html_() and "n: standard error" in chosen._repr_html_() and "6 readings" in repr(chosen)
+    assert "<td>A</td>" in pbrdf.map_fits(data, starts=1, intervals="none")._repr_html_()
 
 
 def test_a_tied_parameter_follows_the_other():

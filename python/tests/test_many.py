@@ -176,3 +176,11 @@ def test_bad_input_is_refused_in_a_sentence(tmp_path):
     with pytest.raises(pbrdf.PbrdfError, match="no table"):
         pbrdf.map_fits(data, output=other)
     assert other.read_text() == "what I need\n"
+
+
+def test_options_that_many_fits_cannot_have_are_refused():
+    data = pbrdf.Measurement(30, [40, 50], dolp=[0.1, 0.2])
+    with pytest.raises(pbrdf.PbrdfError, match=r"map_fits has no own: each measurement is fitted by itself; fit\(\[...\], own=...\)"):
+        pbrdf.map_fits([data], own="n")
+    with pytest.raises(pbrdf.PbrdfError, match="map_fits has no option fixed; it has fix, free, bounds"):
+        pbrdf.map_fits([data], fixed="n")

@@ -86,6 +86,31 @@ def test_what_a_reader_has_to_say_is_warned_of(tmp_path):
         assert len(pbrdf.read(path)) == 1
 
 
+def test_rows_beyond_the_horizon_are_left_out_and_written_back(tmp_path):
+    path = tmp_path / "far.csv"
+    path.write_text("AOI,VA,DoLP\n30,40,0.1\n30,95,0.5\n", encoding="utf-8")
+    with pytest.warns(UserWarning, match=r"1 row \(line 3\) at \|θr\| ≥ 90°, where the model ends; left out, and written back as masked"):
+        data = pbrdf.read(path)
+    assert data.theta_r.tolist() == [40.0]
+    data.write(path)
+    assert any(line.startswith("30,95,") and line.endswith(",1") for line in path.read_text(encoding="utf-8").splitlines())
+
+
+def test_columns_are_made_once_and_cannot_be_changed_by_accident():
+    data = pbrdf.Measurement(30, [10, 20, 30], dolp=[0.1, 0.2, 0.3])
+    for name in ("theta_i", "theta_r", "dphi", "dolp", "dolp_sigma", "brdf", "brdf_sigma", "masked"):
+        assert getattr(data, name) is getattr(data, name)
+        with pytest.raises(ValueError, match="read-only"):
+            getattr(data, name)[0] = 0
+    own = data.dolp.copy()
+    own[0] = 0.9
+    assert data.dolp[0] == 0.1
+    pandas = pytest.importorskip("pandas")
+    frame = data.to_pandas()
+    frame.loc[0, "dolp"] = 0.9
+    assert isinstance(frame, pandas.DataFrame) and data.dolp[0] == 0.1
+
+
 def test_pandas_goes_both_ways():
     pandas = pytest.importorskip("pandas")
     frame = pandas.DataFrame({"theta_i": [30, 30], "theta_r": [40, 50], "dolp": [0.1, math.nan], "brdf": [1.0, 2.0], "who": ["x", "y"]})
@@ -101,6 +126,11 @@ def test_pandas_goes_both_ways():
     [
         ({"dolp": [0.1, math.nan]}, r"dolp\[1\] is NaN; what was not measured is None or masked"),
         ({"dolp": [0.1, 12.0]}, r"dolp\[1\] = 12, expected a DoLP from 0 to 1; divide percent by 100"),
+        ({"dolp": [0.1, 1.17]}, r"dolp\[1\] = 1.17, .*; divide percent by 100; if it is noise, leave the row out, or mask it"),
+        ({"dolp": np.array([0.1 + 0.1j, 0.2])}, "expected real numbers; take its .real, or its absolute values by numpy.abs"),
+        ({"dolp": np.array(["0.1", "0.2"])}, r"expected numbers, not text; numpy.asarray\(..., dtype=float\) reads text"),
+        ({"dolp": np.array(["2026-01-01", "2026-01-02"], dtype="datetime64[D]")}, "expected numbers, not dates"),
+        ({"dolp": [[0.1, 0.2], [0.3]]}, "expected numbers, all rows of one length"),
         ({"dolp": [0.1, -0.1]}, r"dolp\[1\] = -0.1, expected a DoLP from 0 to 1; leave the row out, or mask it"),
         ({"brdf": [0.1, math.inf]}, r"brdf\[1\] = inf, expected a BRDF of 0"),
         ({"dolp_sigma": [0.1, 0.0]}, r"dolp_sigma\[1\] = 0, expected a standard deviation above 0"),
@@ -128,6 +158,7 @@ def test_what_is_wrong_is_refused_in_one_sentence(changes, said):
     ("text", "said"),
     [
         ("theta_i,theta_r,dolp\n30,40,x\n", r"line 2, column 3 \(dolp\): found \"x\", expected a DoLP from 0 to 1"),
+        ("theta_i,theta_r,dolp\n30,40,0.4\n30,50,1.17\n", "found 1.17.*; if the column holds percent, name it dolp_percent.*; a row with # before"),
         ("theta_i,theta_r,dolp\n30,40,12\n", "if the column holds percent, name it dolp_percent"),
         ("", "the file is empty"),
     ],

@@ -100,7 +100,7 @@ def evaluate(
     Args:
         model: The name of a model, such as ``"cauchy"``; :func:`models` lists them.
         parameters: Values by name, such as ``{"n": 2.07, "k": 2.9}``; :func:`parameters` lists names, units and the defaults that stand for
-            those not given. Names that the model does not have are allowed and change nothing.
+            those not given. Names that only other models have change nothing, and are warned of.
         theta_i: Zenith angles of incidence in degrees, 0 ≤ θi < 90.
         theta_r: Zenith angles of view in degrees, 0 ≤ θr < 90; or −90 < θr < 0 for the backscatter side where ``dphi`` is 180.
         dphi: Relative azimuths φr − φi in degrees; 180 is the forward side.
@@ -137,7 +137,7 @@ def _question(
     order = [name for name, *_ in _pbrdf.parameters()]
     # In the order of the core; unknown names stay, for it to refuse.
     by = sorted(dict.fromkeys(by), key=lambda name: order.index(name) if name in order else len(order))
-    values = _checks.values("parameters", parameters)
+    values = _checks.surface(model, parameters)
     return SimpleNamespace(model=model, parameters=values, terms=bool(terms), mueller=bool(mueller), gradients=by), by
 
 

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import functools
 import math
+import sys
+import warnings
 from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
 
+from . import _pbrdf
 from ._pbrdf import PbrdfError
 
 
@@ -19,9 +23,21 @@ def numbers(name: str, value: Any) -> np.ndarray:
             return array.astype(np.float64, copy=False)
         if array.dtype == object:
             return array.astype(np.float64)
+        helps = _HELPS.get(array.dtype.kind, f"expected numbers, not {array.dtype}")
     except (TypeError, ValueError):
-        pass
-    raise PbrdfError(f"{name} is {_described(value)}; expected numbers, all rows of one length")
+        helps = "expected numbers, all rows of one length"
+    raise PbrdfError(f"{name} is {_described(value)}; {helps}")
+
+
+# What turns arrays of other kinds of numpy into numbers.
+_HELPS = {
+    "c": "expected real numbers; take its .real, or its absolute values by numpy.abs",
+    "U": "expected numbers, not text; numpy.asarray(..., dtype=float) reads text that is numbers",
+    "S": "expected numbers, not text; numpy.asarray(..., dtype=float) reads text that is numbers",
+    "m": "expected numbers, not times",
+    "M": "expected numbers, not dates",
+    "V": "expected numbers, not a table; take one of its columns",
+}
 
 
 def number(name: str, value: Any) -> float:
@@ -48,16 +64,58 @@ def values(name: str, value: Any) -> list[tuple[str, float]]:
     return [(key, number(f"{name}[{key!r}]", item)) for key, item in items(name, value)]
 
 
+@functools.cache
+def _parameters_of(model: str) -> frozenset[str]:
+    """The names of the parameters of a model; of all models where there is none of that name, which the core refuses."""
+    tables = {key: frozenset(names) for key, _, _, names in _pbrdf.models()}
+    return tables.get(model, frozenset(name for name, *_ in _pbrdf.parameters()))
+
+
+def surface(model: str, value: Any) -> list[tuple[str, float]]:
+    """Values of a surface by the names of parameters; warns of those that the model does not have."""
+    found = values("parameters", value)
+    known = _parameters_of(model)
+    # Names that are none are refused by the core.
+    strange = [name for name, _ in found if name not in known and name in _parameters_of("")]
+    if strange:
+        told = f"the model {model} has no {' and no '.join(strange)}; what is given for it changes nothing"
+        warnings.warn(told, stacklevel=_outside())
+    return found
+
+
+def _outside() -> int:
+    """How many calls up the package was called: there a warning helps."""
+    level, frame = 1, sys._getframe(1)
+    while frame.f_back is not None and frame.f_globals.get("__package__") == __package__:
+        level, frame = level + 1, frame.f_back
+    return level
+
+
 def items(name: str, value: Any) -> list[tuple[str, Any]]:
     """The items of a mapping whose keys are names; None is an empty one."""
     if value is None:
         return []
     if not isinstance(value, Mapping):
-        raise PbrdfError(f'{name} is {_described(value)}; expected values by name, such as {{"n": 2.0}}')
+        found = _as_mapping(value)
+        if found is None:
+            # As results of this package have it.
+            helps = "; its values() returns them" if callable(getattr(value, "values", None)) else ""
+            raise PbrdfError(f'{name} is {_described(value)}; expected values by name, such as {{"n": 2.0}}{helps}')
+        value = found
     for key in value:
         if not isinstance(key, str):
             raise PbrdfError(f'{name} has the key {key!r}; expected names of parameters, such as "n"')
     return list(value.items())
+
+
+def _as_mapping(value: Any) -> dict[Any, Any] | None:
+    """What has keys as a dict has, such as a row of pandas."""
+    if not (callable(getattr(value, "keys", None)) and hasattr(value, "__getitem__")):
+        return None
+    try:
+        return dict(value)
+    except (TypeError, ValueError, KeyError):
+        return None
 
 
 def names(name: str, value: Any) -> list[str]:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import html
 import json
+import warnings
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from types import SimpleNamespace
@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _checks, _pbrdf
+from . import _checks, _html, _pbrdf
 from ._angles import Evaluation, evaluate
 from ._measurement import Measurement
 from ._pbrdf import PbrdfError
@@ -45,6 +45,20 @@ class Estimate:
 
     def __str__(self) -> str:
         return self.text
+
+    def __float__(self) -> float:
+        """Its value: all parameters of a result can be evaluated, or started from, as they are."""
+        return self.value
+
+
+class _Estimates(dict[str, Estimate]):
+    """Parameters by name; what is missing is said."""
+
+    def __missing__(self, name: str) -> Estimate:
+        own = [key for key in self if key.partition("@")[0] == name and "@" in key]
+        if own:
+            raise KeyError(f"each measurement has its own {name}: ask for {' or '.join(map(repr, own))}, or for sets[0].parameters[{name!r}]")
+        raise KeyError(f"there is no parameter {name!r}; there are {', '.join(self)}")
 
 
 @dataclass(frozen=True)
@@ -108,9 +122,12 @@ class _Finished:
 class FitResult:
     """What a fit found, and what the data leave undetermined. It can be pickled, and so come from other processes."""
 
-    def __init__(self, inner: _pbrdf.Fitted | _Finished, data: Sequence[Measurement] = ()) -> None:
+    def __init__(
+        self, inner: _pbrdf.Fitted | _Finished, data: Sequence[Measurement] = (), settings: SimpleNamespace | None = None
+    ) -> None:
         self._inner = inner
         self._data = list(data)
+        self._settings = settings
         self._document: dict[str, Any] = json.loads(inner.json())
         texts = dict(inner.estimates())
         document = self._document
@@ -120,17 +137,33 @@ class FitResult:
 
         shared = estimates(document["parameters"])
         sets = [(item, estimates(item["parameters"], f"@{item['set']}")) for item in document.get("sets", [])]
-        self.parameters: dict[str, Estimate] = dict(shared)
-        """The parameters of the model by name; those that each measurement has for itself as ``"n@B.csv"``."""
+        self._parameters = _Estimates(shared)
         for _, own in sets:
-            self.parameters.update({estimate.name: estimate for estimate in own.values()})
-        self.sets: list[SetResult] = [
-            SetResult(item["set"], item["objective"], item["sum_of_squares"], {**shared, **own}) for item, own in sets
+            self._parameters.update({estimate.name: estimate for estimate in own.values()})
+        self._sets = [
+            SetResult(item["set"], item["objective"], item["sum_of_squares"], _Estimates({**shared, **own})) for item, own in sets
         ]
-        """The measurements of a fit of several, in their order; empty after a fit of one."""
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return FitResult, (_Finished(self._inner), self._data)
+        return FitResult, (_Finished(self._inner), self._data, self._settings)
+
+    def _fitted(self) -> _pbrdf.Fitted:
+        """The fit with its problem; where it comes from another process, it is made again, which gives the same."""
+        if isinstance(self._inner, _pbrdf.Fitted):
+            return self._inner
+        if self._settings is None:
+            raise PbrdfError("result comes from another process and lacks its pixels; fit and draw in one process")
+        return _pbrdf.fit([item._inner for item in self._data], self._settings, None)
+
+    @property
+    def parameters(self) -> dict[str, Estimate]:
+        """The parameters of the model by name; those that each measurement has for itself as ``"n@B.csv"``."""
+        return self._parameters
+
+    @property
+    def sets(self) -> list[SetResult]:
+        """The measurements of a fit of several, in their order; empty after a fit of one."""
+        return self._sets
 
     @property
     def model(self) -> str:
@@ -219,6 +252,8 @@ class FitResult:
         import matplotlib.pyplot as plt  # type: ignore[import-not-found, unused-ignore]
 
         self.values(set)
+        if not self._data:
+            raise PbrdfError("a fit of pixels has no curves; its residuals are maps, such as s0_residuals of the PixelFit")
         data = self._data[set]
         quantity = ("brdf" if np.isnan(data.dolp).all() else "dolp") if quantity is None else _checks.word("quantity", quantity)
         if quantity not in ("dolp", "brdf"):
@@ -256,14 +291,16 @@ class FitResult:
         return f"<pbrdf.FitResult\n{self}\n>"
 
     def _repr_html_(self) -> str:
-        rows = "".join(
-            f"<tr><td>{html.escape(name)}</td><td>{html.escape(estimate.text)}</td><td>{_ends(estimate.interval95)}</td></tr>"
-            for name, estimate in self.parameters.items()
-        )
-        open_ends = "".join(f"<li>{html.escape(sentence)}</li>" for sentence in self.undetermined)
-        head = f"{html.escape(self.model)}: {html.escape(self._inner.ending())}, ΔE = {_short(self.objective)}"
-        table = f"<table><tr><th>parameter</th><th>value</th><th>95 %</th></tr>{rows}</table>"
-        return f"<p>{head}</p>{table}" + (f"<ul>{open_ends}</ul>" if open_ends else "")
+        head = f"{self.model}: {self._inner.ending()}, ΔE = {_short(self.objective)}"
+        if not self.sets:
+            rows = [(name, estimate.text, ends_text(estimate.interval95)) for name, estimate in self.parameters.items()]
+            return _html.page(head, ["parameter", "value", "95 %"], rows, self.undetermined)
+        # A column for each measurement: what they share stands in the first one.
+        shared = [(name, estimate.text, *("" for _ in self.sets)) for name, estimate in self.parameters.items() if "@" not in name]
+        names = dict.fromkeys(name.partition("@")[0] for name in self.parameters if "@" in name)
+        own = [(name, "", *(one.parameters[name].text for one in self.sets)) for name in names]
+        ends = ("ΔE", _short(self.objective), *(_short(one.objective) for one in self.sets))
+        return _html.page(head, ["parameter", "shared", *(one.name for one in self.sets)], [*shared, *own, ends], self.undetermined)
 
 
 def _estimate(name: str, fields: Mapping[str, Any], texts: Mapping[str, str]) -> Estimate:
@@ -287,7 +324,8 @@ def _short(number: float | None) -> str:
     return "none" if number is None else f"{number:.4g}"
 
 
-def _ends(interval: Interval | None) -> str:
+def ends_text(interval: Interval | None) -> str:
+    """The ends of an interval, nothing on an open side."""
     if interval is None:
         return ""
     low, high = interval
@@ -375,7 +413,42 @@ def fit(
         loss_scale=loss_scale,
         brdf_residuals=brdf_residuals,
     )
-    return FitResult(_pbrdf.fit([item._inner for item in measurements], settings, progress), measurements)
+    _check_range(settings, measurements)
+    return FitResult(_pbrdf.fit([item._inner for item in measurements], settings, progress), measurements, settings)
+
+
+def _check_range(settings: SimpleNamespace, measurements: Sequence[Measurement]) -> None:
+    """Refuses a range of angles that no row lies in, and warns where one of several measurements has none."""
+    if settings.range is None:
+        return
+    empty = [one for one in measurements if not one.masked.all() and not _in_range(settings, one).any()]
+    if not empty:
+        return
+    (low, high), (view_low, view_high) = settings.range
+    signed, first = _signed(empty[0]), empty[0]
+    told = (
+        f"no row lies in the range that is fitted, θi {low:g}° to {high:g}° and θr {view_low:g}° to {view_high:g}°; "
+        f"the rows have θi {first.theta_i.min():g}° to {first.theta_i.max():g}° and θr {signed.min():g}° to {signed.max():g}°"
+    )
+    if len(empty) == len(measurements):
+        raise PbrdfError(told)
+    warnings.warn(f"{', '.join(one.name or 'a measurement' for one in empty)}: {told}", stacklevel=3)
+
+
+def _signed(data: Measurement) -> NDArray[np.float64]:
+    """θr as ranges have it: negative on the side of the source."""
+    azimuth = data.dphi % 360.0
+    return np.where((azimuth > 90.0) & (azimuth <= 270.0), data.theta_r, -data.theta_r)
+
+
+def _in_range(settings: SimpleNamespace, data: Measurement) -> NDArray[np.bool_]:
+    """The rows that a fit with these settings uses."""
+    used = ~data.masked
+    if settings.range is not None:
+        (low, high), (view_low, view_high) = settings.range
+        signed = _signed(data)
+        used = used & (data.theta_i >= low) & (data.theta_i <= high) & (signed >= view_low) & (signed <= view_high)
+    return used
 
 
 def fit_settings(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import concurrent.futures
 import hashlib
+import inspect
 import json
 import os
 import time
@@ -15,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from . import _checks, _pbrdf
+from . import _html, _pbrdf
 from ._fitting import fit_settings
 from ._measurement import Measurement, read_quietly
 from ._pbrdf import PbrdfError, __version__
@@ -25,16 +26,22 @@ from ._rows import KEYS, CsvRows, ParquetRows, Row, is_text
 _TASK_SECONDS = 0.25
 # Fits of a task at most.
 _MOST = 2048
+# The options of `fit` that every one of many fits can have.
+_OPTIONS = [name for name in inspect.signature(fit_settings).parameters if name not in ("model", "own")]
 
 
 class FitTable:
     """Rows of fits, one a measurement, in the order of the items; a failure is a row with its sentence in ``error``."""
 
     def __init__(self, columns: list[str], rows: list[Row]) -> None:
-        self.columns = columns
+        self._columns = columns
+        self._rows = rows
+
+    @property
+    def columns(self) -> list[str]:
         """Names of the columns, those of ``pbrdf-explorer fit --batch``: ``file``, ``set``, ``objective``, ``n``, ``n_std_error``,
         ``n_low68`` …, ``undetermined``, ``error``."""
-        self._rows = rows
+        return self._columns
 
     def __len__(self) -> int:
         return len(self._rows)
@@ -65,6 +72,13 @@ class FitTable:
     def __repr__(self) -> str:
         failures = len(self.failures)
         return f"<pbrdf.FitTable of {len(self)} rows{f', {failures} without a fit' if failures else ''}>"
+
+    def _repr_html_(self) -> str:
+        # What one looks at first; all columns are in to_pandas().
+        shown = [name for name in self.columns if name in ("file", "set", "objective", "stop_reason", "error") or f"{name}_std_error" in self.columns]
+        places = [self.columns.index(name) for name in shown]
+        rows = [[row[place] for place in places] for row in self._rows]
+        return _html.page(f"{len(self)} fits", shown, rows)
 
 
 @dataclass
@@ -124,6 +138,11 @@ def map_fits(
         raise PbrdfError('items: expected measurements or files, such as sorted(Path("runs").glob("*.csv"))')
     if progress is not None and not callable(progress):
         raise PbrdfError("progress: expected a function of items done, items in all, and seconds left")
+    if options.get("own") is not None:
+        raise PbrdfError("map_fits has no own: each measurement is fitted by itself; fit([...], own=...) fits several together")
+    unknown = sorted(set(options) - set(_OPTIONS))
+    if unknown:
+        raise PbrdfError(f"map_fits has no option {unknown[0]}; it has {', '.join(_OPTIONS)}")
     settings = fit_settings(model, **options)
     # Refuses what is wrong with the options before anything is done.
     _pbrdf.fit_rows([], settings, None)

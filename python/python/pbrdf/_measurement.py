@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _checks, _pbrdf
+from . import _checks, _html, _pbrdf
 from ._pbrdf import PbrdfError
 
 COLUMNS = ("theta_i", "theta_r", "dphi", "dolp", "dolp_sigma", "brdf", "brdf_sigma", "masked")
@@ -33,7 +33,7 @@ class Measurement:
         name: What it is called in results.
         metadata: Texts by keys, such as ``{"wavelength_nm": "650"}``.
 
-    All broadcast to one row of numbers. At least one of ``dolp`` and ``brdf`` is needed. What was not measured is None, or masked in a
+    Its columns are read-only arrays: ``copy()`` gives one that can be changed. All broadcast to one row of numbers. At least one of ``dolp`` and ``brdf`` is needed. What was not measured is None, or masked in a
     ``numpy.ma`` array; NaN is refused.
 
     Raises:
@@ -47,6 +47,7 @@ class Measurement:
     """
 
     _inner: _pbrdf.Measurement
+    _columns: dict[str, NDArray[Any]]
 
     def __init__(
         self,
@@ -79,6 +80,7 @@ class Measurement:
         pairs = {key: (rows[key], _to_rows(measured, rows[key].shape)) for key, (_, measured) in columns.items()}
         if not any(measured.any() for key, (_, measured) in pairs.items() if not key.endswith("_sigma")):
             raise PbrdfError("no row has a value of DoLP or BRDF")
+        self._columns = {}
         texts = [(key, str(value)) for key, value in _checks.items("metadata", metadata)]
         self._inner = _pbrdf.Measurement(
             SimpleNamespace(
@@ -93,8 +95,18 @@ class Measurement:
     @classmethod
     def _of(cls, inner: _pbrdf.Measurement) -> Measurement:
         measurement = cls.__new__(cls)
-        measurement._inner = inner
+        measurement._inner, measurement._columns = inner, {}
         return measurement
+
+    def _column(self, name: str) -> NDArray[Any]:
+        """A column, made once; read-only, so that nobody takes what is written to it for a change of the measurement."""
+        found = self._columns.get(name)
+        if found is None:
+            found = self._inner.column(name)
+            found = found != 0.0 if name == "masked" else found
+            found.flags.writeable = False
+            self._columns[name] = found
+        return found
 
     @classmethod
     def from_pandas(cls, frame: Any, *, name: str = "", metadata: Mapping[str, Any] | None = None) -> Measurement:
@@ -117,8 +129,7 @@ class Measurement:
         """As a ``pandas.DataFrame`` with the columns that have a value, and ``masked`` as truth values. Needs pandas."""
         import pandas  # type: ignore[import-untyped, import-not-found, unused-ignore]
 
-        columns: dict[str, Any] = {key: self._inner.column(key) for key in COLUMNS}
-        columns["masked"] = self.masked
+        columns: dict[str, Any] = {key: self._column(key) for key in COLUMNS}
         kept = {key: value for key, value in columns.items() if key == "masked" or not np.isnan(value).all()}
         return pandas.DataFrame(kept)
 
@@ -140,42 +151,42 @@ class Measurement:
     @property
     def theta_i(self) -> NDArray[np.float64]:
         """Zenith angles of incidence in degrees, one a row."""
-        return self._inner.column("theta_i")
+        return self._column("theta_i")
 
     @property
     def theta_r(self) -> NDArray[np.float64]:
         """Zenith angles of view in degrees, 0 ≤ θr < 90, one a row."""
-        return self._inner.column("theta_r")
+        return self._column("theta_r")
 
     @property
     def dphi(self) -> NDArray[np.float64]:
         """Relative azimuths in degrees, one a row: 0 where a negative θr was given."""
-        return self._inner.column("dphi")
+        return self._column("dphi")
 
     @property
     def dolp(self) -> NDArray[np.float64]:
         """Degree of linear polarisation, one a row; NaN where it was not measured."""
-        return self._inner.column("dolp")
+        return self._column("dolp")
 
     @property
     def dolp_sigma(self) -> NDArray[np.float64]:
         """Standard deviations of DoLP, one a row; NaN where none is stated."""
-        return self._inner.column("dolp_sigma")
+        return self._column("dolp_sigma")
 
     @property
     def brdf(self) -> NDArray[np.float64]:
         """BRDF in sr⁻¹, one a row; NaN where it was not measured."""
-        return self._inner.column("brdf")
+        return self._column("brdf")
 
     @property
     def brdf_sigma(self) -> NDArray[np.float64]:
         """Standard deviations of the BRDF in sr⁻¹, one a row; NaN where none is stated."""
-        return self._inner.column("brdf_sigma")
+        return self._column("brdf_sigma")
 
     @property
     def masked(self) -> NDArray[np.bool_]:
         """Rows that no fit uses."""
-        return self._inner.column("masked") != 0.0
+        return self._column("masked")
 
     def renamed(self, name: str) -> Measurement:
         """The same measurement under another name."""
@@ -187,14 +198,20 @@ class Measurement:
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Goes to other processes: rows, name and metadata, without the notes of its reader."""
-        return _restored, ([self._inner.column(key) for key in COLUMNS], self.name, self.metadata)
+        return _restored, ([self._column(key) for key in COLUMNS], self.name, self.metadata)
 
     def __len__(self) -> int:
         return len(self._inner)
 
     def __repr__(self) -> str:
-        there = [label for key, label in (("dolp", "DoLP"), ("brdf", "BRDF")) if not np.isnan(self._inner.column(key)).all()]
+        there = [label for key, label in (("dolp", "DoLP"), ("brdf", "BRDF")) if not np.isnan(self._column(key)).all()]
         return f"<pbrdf.Measurement {self.name!r}: {len(self)} rows, {' and '.join(there) or 'nothing measured'}>"
+
+    def _repr_html_(self) -> str:
+        names = [name for name in COLUMNS if name == "masked" or not np.isnan(self._column(name)).all()]
+        columns = [self._column(name) for name in names if name != "masked"]
+        rows = list(zip(*(column.tolist() for column in columns), ("yes" if masked else "" for masked in self.masked.tolist())))
+        return _html.page(repr(self).strip("<>"), names, rows)
 
 
 def _restored(columns: list[NDArray[np.float64]], name: str, metadata: dict[str, str]) -> Measurement:

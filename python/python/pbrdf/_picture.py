@@ -93,7 +93,7 @@ def picture(
         raise PbrdfError(f"size = {size!r}; expected 1 to 16384 pixels")
     request = SimpleNamespace(
         model=_checks.word("model", model),
-        parameters=_checks.values("parameters", parameters),
+        parameters=_checks.surface(_checks.word("model", model), parameters),
         shape=_checks.word("shape", shape),
         lamp=None if lamp is None else _checks.pair("lamp", lamp, "(angle from z, angle from x) in degrees"),
         sky=None if sky is None else float(sky),

@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _checks, _pbrdf
-from ._fitting import Estimate, FitResult, fit_settings
+from . import _checks, _html, _pbrdf
+from ._fitting import Estimate, FitResult, ends_text, fit_settings
 from ._pbrdf import PbrdfError
 
 Array = NDArray[np.float64]
@@ -224,17 +224,38 @@ class PixelFit:
     """What pixels say of a surface."""
 
     def __init__(self, fit: FitResult, noise: Sequence[float], maps: SimpleNamespace, one_angle: float | None) -> None:
-        self.fit = fit
+        self._fit, self._maps, self._one_angle = fit, maps, one_angle
+        self._noise_s0, self._noise_polarised = noise
+
+    @property
+    def fit(self) -> FitResult:
         """The fit, with correlations and what the data leave undetermined."""
-        self.noise_s0, self.noise_polarised = noise
-        """Standard deviations that the weights suppose: of S0 and of the polarised part, relative to S0."""
-        self.used: NDArray[np.bool_] = maps.used
+        return self._fit
+
+    @property
+    def noise_s0(self) -> float:
+        """Standard deviation of S0 that the weights suppose, relative to S0."""
+        return self._noise_s0
+
+    @property
+    def noise_polarised(self) -> float:
+        """Standard deviation of the polarised part that the weights suppose, relative to S0."""
+        return self._noise_polarised
+
+    @property
+    def used(self) -> NDArray[np.bool_]:
         """The pixels that were fitted, of shape (lamps, rows, columns)."""
-        self.s0_residuals: Array = maps.s0
+        return self._maps.used
+
+    @property
+    def s0_residuals(self) -> Array:
         """(S0 − model)/model in each pixel, of shape (lamps, rows, columns); NaN where it was not fitted."""
-        self.dolp_residuals: Array = maps.dolp
+        return self._maps.s0
+
+    @property
+    def dolp_residuals(self) -> Array:
         """DoLP − model in each pixel, the same way; what is polarised is divided by the S0 of the model."""
-        self._one_angle = one_angle
+        return self._maps.dolp
 
     @property
     def parameters(self) -> dict[str, Estimate]:
@@ -258,6 +279,11 @@ class PixelFit:
         lines = [f"<pbrdf.PixelFit of {int(self.used.sum())} pixels under {len(self.used)} lamps: {self.fit.stop_reason}"]
         lines += [f"  {name} = {estimate}" for name, estimate in self.parameters.items()]
         return "\n".join([*lines, *(f"  {sentence}" for sentence in self.undetermined), ">"])
+
+    def _repr_html_(self) -> str:
+        rows = [(name, estimate.text, ends_text(estimate.interval95)) for name, estimate in self.parameters.items()]
+        head = f"{int(self.used.sum())} pixels under {len(self.used)} lamps: {self.fit.stop_reason}"
+        return _html.page(head, ["parameter", "value", "95 %"], rows, self.undetermined)
 
 
 def _with_intervals(estimate: Estimate) -> Estimate:
@@ -368,7 +394,7 @@ def _scaled(options: dict[str, Any], radiance: float) -> dict[str, Any]:
     tied = set(options.get("tie") or {})
     free = [name for name in start if name not in held | tied]
     said = {key: dict(options.get(key) or {}) for key in ("start", "bounds")}
-    of = {"start": start, "bounds": bounds}
+    of: dict[str, dict[str, Any]] = {"start": start, "bounds": bounds}
     return {**options, **{key: {**{name: of[key][name] for name in free}, **said[key]} for key in said}}
 
 

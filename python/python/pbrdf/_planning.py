@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from types import SimpleNamespace
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _checks, _pbrdf
+from . import _checks, _html, _pbrdf
 from ._measurement import Measurement
 from ._pbrdf import PbrdfError
 
@@ -48,7 +47,7 @@ def simulate(
     """
     scene = SimpleNamespace(
         model=_checks.word("model", model),
-        parameters=_checks.values("parameters", parameters),
+        parameters=_checks.surface(_checks.word("model", model), parameters),
         theta_i=_checks.numbers("theta_i", theta_i).ravel().tolist(),
         theta_r=_checks.numbers("theta_r", theta_r).ravel().tolist(),
         dphi=_checks.number("dphi", dphi),
@@ -60,7 +59,7 @@ def simulate(
     return Measurement._of(_pbrdf.simulate(scene))
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class AngleChoice:
     """Angles to measure at, and what they promise."""
 
@@ -80,6 +79,18 @@ class AngleChoice:
     """Predicted standard errors of the free parameters, of the first surface; None where they stay open."""
     undetermined: list[str]
     """What stays open, a sentence each."""
+
+    def __repr__(self) -> str:
+        return f"<pbrdf.AngleChoice: {int(self.repeats.sum())} readings in {len(self.repeats)} pairs of directions, {self._told()}>"
+
+    def _told(self) -> str:
+        return f"{100.0 * self.efficiency:.0f} % of what all candidates tell"
+
+    def _repr_html_(self) -> str:
+        rows = list(zip(self.theta_i, self.theta_r, self.dphi, self.repeats))
+        errors = [f"{name}: standard error {'open' if error is None else f'{error:.2g}'}" for name, error in self.std_error.items()]
+        head = f"{int(self.repeats.sum())} readings: {self._told()}"
+        return _html.page(head, ["θi / °", "θr / °", "Δφ / °", "times"], rows, [*errors, *self.undetermined])
 
 
 def choose_angles(
@@ -133,7 +144,7 @@ def choose_angles(
         raise PbrdfError("progress: expected a function of the share that is done")
     request = SimpleNamespace(
         model=_checks.word("model", model),
-        surfaces=[_checks.values("parameters", surface) for surface in surfaces],
+        surfaces=[_checks.surface(_checks.word("model", model), surface) for surface in surfaces],
         theta_i=_checks.numbers("theta_i", theta_i).ravel().tolist(),
         theta_r=_checks.numbers("theta_r", theta_r).ravel().tolist(),
         dphi=_checks.numbers("dphi", dphi).ravel().tolist(),

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _checks, _pbrdf
+from . import _checks, _html, _pbrdf
 from ._fitting import FitResult
 from ._pbrdf import PbrdfError
 
@@ -45,22 +45,43 @@ class Posterior:
     """Draws of all surfaces that a measurement allows."""
 
     def __init__(self, inner: _pbrdf.Drawn) -> None:
-        *columns, log_posterior = (column.reshape(inner.shape) for column in inner.columns())
-        self.draws: dict[str, NDArray[np.float64]] = dict(zip(inner.names, columns, strict=True))
-        """Draws of the free parameters by name, each of the shape (chains, draws)."""
-        self.log_posterior: NDArray[np.float64] = log_posterior
-        """ln(likelihood × priors) of each draw, of the shape (chains, draws)."""
-        self.summary: dict[str, Summary] = {
+        *columns, self._log_posterior = (column.reshape(inner.shape) for column in inner.columns())
+        self._draws: dict[str, NDArray[np.float64]] = dict(zip(inner.names, columns, strict=True))
+        self._summary = {
             name: Summary(mean, sd, *quantiles, *(convergence or (None, None, None)))
             for name, (mean, sd, quantiles, convergence) in zip(inner.names, inner.summaries(), strict=True)
         }
+        self._verdict, self._divergences, self._log_evidence = inner.verdict, inner.divergences, inner.log_evidence
+
+    @property
+    def draws(self) -> dict[str, NDArray[np.float64]]:
+        """Draws of the free parameters by name, each of the shape (chains, draws)."""
+        return self._draws
+
+    @property
+    def log_posterior(self) -> NDArray[np.float64]:
+        """ln(likelihood × priors) of each draw, of the shape (chains, draws)."""
+        return self._log_posterior
+
+    @property
+    def summary(self) -> dict[str, Summary]:
         """What the draws say of each free parameter."""
-        self.verdict: str = inner.verdict
+        return self._summary
+
+    @property
+    def verdict(self) -> str:
         """Whether the draws are to be trusted, in a sentence."""
-        self.divergences: int = inner.divergences
+        return self._verdict
+
+    @property
+    def divergences(self) -> int:
         """Transitions whose energy ran away; more than one in a thousand are too many."""
-        self.log_evidence: tuple[float, float] | None = inner.log_evidence
+        return self._divergences
+
+    @property
+    def log_evidence(self) -> tuple[float, float] | None:
         """Natural logarithm of the evidence of the model, and its standard error; None of too few draws."""
+        return self._log_evidence
 
     def to_arviz(self) -> Any:
         """As ``arviz.InferenceData``. Needs arviz."""
@@ -76,6 +97,10 @@ class Posterior:
     def __repr__(self) -> str:
         return f"<pbrdf.Posterior\n{self}\n>"
 
+    def _repr_html_(self) -> str:
+        rows = [(name, of.q50, of.q16, of.q84, of.rhat, of.ess_bulk) for name, of in self.summary.items()]
+        return _html.page(self.verdict, ["parameter", "median", "16 %", "84 %", "R̂", "effective draws"], rows)
+
 
 def posterior(
     result: FitResult,
@@ -89,7 +114,8 @@ def posterior(
     """Draws from all surfaces that the data of a fit allow (no-U-turn sampler). Ctrl-C stops it.
 
     Args:
-        result: The fit, of one measurement or of several: its data, free parameters and bounds are those of the posterior.
+        result: The fit, of one measurement or of several: its data, free parameters and bounds are those of the posterior. One that comes from
+            another process is fitted again first.
         priors: By name ``("normal", mean, sd)``, ``("uniform", low, high)`` or ``("log-uniform", low, high)``; the others are equally likely within
             the bounds of the fit.
         draws: Draws of each chain after the warm-up, at least 100.
@@ -108,8 +134,6 @@ def posterior(
     """
     if not isinstance(result, FitResult):
         raise PbrdfError("result: expected a FitResult, as fit returns it")
-    if not isinstance(result._inner, _pbrdf.Fitted):
-        raise PbrdfError("result comes from another process and lacks its problem; fit and draw in one process")
     if progress is not None and not callable(progress):
         raise PbrdfError("progress: expected a function of the share that is done")
     request = SimpleNamespace(
@@ -118,7 +142,7 @@ def posterior(
         chains=_checks.whole("chains", chains, 1),
         seed=_checks.whole("seed", seed, 0),
     )
-    return Posterior(_pbrdf.posterior(result._inner, request, progress))
+    return Posterior(_pbrdf.posterior(result._fitted(), request, progress))
 
 
 def _prior(name: str, value: Any) -> tuple[str, float, float]:
