@@ -82,8 +82,11 @@ def test_columns_can_be_named(tmp_path):
 def test_what_a_reader_has_to_say_is_warned_of(tmp_path):
     path = tmp_path / "more.csv"
     path.write_text("theta_i,theta_r,dolp,operator\n30,40,0.1,7\n", encoding="utf-8")
-    with pytest.warns(UserWarning, match="operator"):
-        assert len(pbrdf.read(path)) == 1
+    for read in (pbrdf.read, pbrdf.read_all):
+        with pytest.warns(UserWarning, match="operator") as caught:
+            read(path)
+        # Where the user wrote it.
+        assert caught[0].filename == __file__
 
 
 def test_rows_beyond_the_horizon_are_left_out_and_written_back(tmp_path):

@@ -79,11 +79,11 @@ def surface(model: str, value: Any) -> list[tuple[str, float]]:
     strange = [name for name, _ in found if name not in known and name in _parameters_of("")]
     if strange:
         told = f"the model {model} has no {' and no '.join(strange)}; what is given for it changes nothing"
-        warnings.warn(told, stacklevel=_outside())
+        warnings.warn(told, stacklevel=outside())
     return found
 
 
-def _outside() -> int:
+def outside() -> int:
     """How many calls up the package was called: there a warning helps."""
     level, frame = 1, sys._getframe(1)
     while frame.f_back is not None and frame.f_globals.get("__package__") == __package__:

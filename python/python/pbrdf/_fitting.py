@@ -432,7 +432,7 @@ def _check_range(settings: SimpleNamespace, measurements: Sequence[Measurement])
     )
     if len(empty) == len(measurements):
         raise PbrdfError(told)
-    warnings.warn(f"{', '.join(one.name or 'a measurement' for one in empty)}: {told}", stacklevel=3)
+    warnings.warn(f"{', '.join(one.name or 'a measurement' for one in empty)}: {told}", stacklevel=_checks.outside())
 
 
 def _signed(data: Measurement) -> NDArray[np.float64]:

@@ -265,7 +265,7 @@ def read_all(
     found = read_quietly(path, answers)
     for measurement in found:
         for note in measurement.notes:
-            warnings.warn(f"{os.fspath(path)}: {note}", stacklevel=2)
+            warnings.warn(f"{os.fspath(path)}: {note}", stacklevel=_checks.outside())
     return found
 
 
