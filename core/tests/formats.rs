@@ -115,8 +115,8 @@ fn errors_carry_the_hint_that_helps() {
         ("Theta_i,theta_r,dolp\n30,20,0.1\n".to_owned(), None),
         (format!("{head}\n30,20,12.5,0.1\n"), Some(Hint::NameDolpPercent)),
         (format!("{head}\n30,20,125,0.1\n"), Some(Hint::LeaveOut)),
-        // Noise around 1.
-        (format!("{head}\n30,20,1.03,0.1\n"), Some(Hint::LeaveOut)),
+        // Noise around 1, or percent.
+        (format!("{head}\n30,20,1.03,0.1\n"), Some(Hint::PercentOrLeaveOut)),
         (format!("{head}\nNaN,20,0.1,0.1\n"), None),
         (format!("{head}\n30,5,20,0,1,0,01\n"), Some(Hint::SeparateBySemicolons)),
         (format!("{head}\n30,20\n"), None),

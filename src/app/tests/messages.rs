@@ -130,7 +130,15 @@ fn what_is_expected_and_what_helps_is_said_in_chinese() {
         E::Line("1 2 3"),
     ]);
     use Hint as H;
-    assert_localized([H::Import, H::NameDolpPercent, H::LeaveOut, H::SaveAsUtf8, H::NameThousands('.'), H::SeparateBySemicolons]);
+    assert_localized([
+        H::Import,
+        H::NameDolpPercent,
+        H::PercentOrLeaveOut,
+        H::LeaveOut,
+        H::SaveAsUtf8,
+        H::NameThousands('.'),
+        H::SeparateBySemicolons,
+    ]);
     let error = Measurement::read(&b"theta_i,theta_r,dolp\n10,0,50\n"[..]).expect_err("percent");
     assert_eq!(
         advised(&error, error.hint()),
