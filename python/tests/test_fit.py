@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 import math
 import multiprocessing
@@ -169,6 +170,9 @@ def test_help_knows_every_attribute():
     found = [pbrdf.FitResult.parameters, pbrdf.FitResult.sets, pbrdf.Posterior.draws, pbrdf.Posterior.summary, pbrdf.Posterior.log_evidence]
     found += [pbrdf.FitTable.columns, pbrdf.PixelFit.fit, pbrdf.PixelFit.used, pbrdf.PixelFit.s0_residuals, pbrdf.PixelFit.noise_polarised]
     assert all(isinstance(attribute, property) and attribute.__doc__ for attribute in found)
+    for one in (found for found in vars(pbrdf).values() if dataclasses.is_dataclass(found)):
+        assert all(f"\n    {field.name}: " in one.__doc__ for field in dataclasses.fields(one)), one
+    assert pbrdf.Summary.q50.__doc__ == "Median." and pbrdf.ModelInfo.citation.__doc__ == "Where it comes from."
     result = pbrdf.fit(simulated(), starts=1, intervals="none")
     # What is made in __init__ alone has no place in help().
     for one in (result, pbrdf.posterior(result, draws=200, chains=1), pbrdf.map_fits([simulated()], starts=1, intervals="none")):

@@ -19,6 +19,7 @@ to 1. What is refused raises :class:`PbrdfError` with one sentence that says why
 
 from __future__ import annotations
 
+from . import _docs
 from ._angles import Evaluation, Geometries, evaluate, prepare
 from ._fitting import Correlations, Estimate, FitResult, Minimum, SetResult, fit
 from ._many import FitTable, map_fits
@@ -69,3 +70,5 @@ __all__ = [
     "simulate",
     "sphere",
 ]
+
+_docs.describe(found for found in list(globals().values()) if isinstance(found, type))
