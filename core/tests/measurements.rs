@@ -1,8 +1,11 @@
 //! Reading and writing measurements: what is accepted is read right, what is refused says where and why.
 #![allow(clippy::expect_used, reason = "a test fails by panicking")]
 
+use pbrdf::fit::Bounds;
 use pbrdf::measurement::formats::{ImportError, Imported};
-use pbrdf::measurement::{ImportNote, LineList, Mapping, Measurement, ReadError, append_columns, shortest, unwatched, write_measurements};
+use pbrdf::measurement::{ImportNote, LineList, Mapping, Measurement, ReadError, append_columns, unwatched, write_measurements};
+use pbrdf::model::{Parameter, assignment_from_text};
+use pbrdf::optics::{Geometry, shortest};
 use std::ops::ControlFlow;
 
 fn read(text: impl AsRef<[u8]>) -> Result<Measurement, ReadError> {
@@ -181,6 +184,16 @@ fn numbers_are_written_in_the_shortest_form_that_reads_back() {
     ] {
         assert_eq!((shortest(number).as_str(), text.parse()), (text, Ok(number)));
     }
+}
+
+#[test]
+fn sentences_write_numbers_as_short() {
+    let geometry = Geometry::new(1e300, 0.0, 180.0).expect_err("no such angle");
+    assert_eq!(geometry.to_string(), "theta_i = 1e300 is outside 0 ≤ θi < 90 degrees");
+    let value = assignment_from_text("n=1e308").expect_err("n has an end");
+    assert_eq!(value.to_string(), "n = 1e308 is not allowed: expected a number from 0 to 1e10");
+    let bounds = Bounds::default().set(Parameter::N, 1e-320, 1e300).expect_err("n has an end");
+    assert_eq!(bounds.to_string(), "bound 1e300 of n is not allowed: expected a number from 0 to 1e10");
 }
 
 const SETS: &str = "# operator: JL\nset,wavelength_nm,theta_i,theta_r,dolp\nplate; \"a\",450,40,20,0.1\nb,650,40,20,0.2\nplate; \"a\",450,40,25,0.3\nb,550,40,20,0.4\n";

@@ -6,6 +6,7 @@ use numpy::{PyArray1, PyReadonlyArray1};
 use pbrdf::measurement::foreign::{LabTable, TableOptions};
 use pbrdf::measurement::formats::{ImportError, ImportNote, ImportOptions, Opened, open};
 use pbrdf::measurement::{Expected, Mapping, Quantity, Row, choose_wavelength, unwatched, write_measurements};
+use pbrdf::optics::shortest;
 use pyo3::prelude::*;
 use std::path::{Path, PathBuf};
 
@@ -62,11 +63,15 @@ fn quantity(
             ..2.0 => "divide percent by 100; if it is noise, leave the row out, or mask it",
             _ => "divide percent by 100",
         };
-        return if masked { Ok(None) } else { Err(refused(format_args!("{name}[{row}] = {value}, expected {expected}; {hint}"))) };
+        return if masked {
+            Ok(None)
+        } else {
+            Err(refused(format_args!("{name}[{row}] = {}, expected {expected}; {hint}", shortest(value))))
+        };
     }
     let sigma = cell(sigmas, row);
     match sigma.filter(|&sigma| !(sigma > 0.0 && sigma.is_finite())) {
-        Some(sigma) => Err(refused(format_args!("{name}_sigma[{row}] = {sigma}, expected {}", Expected::Sigma))),
+        Some(sigma) => Err(refused(format_args!("{name}_sigma[{row}] = {}, expected {}", shortest(sigma), Expected::Sigma))),
         None => Ok(Some(Quantity { value, sigma })),
     }
 }

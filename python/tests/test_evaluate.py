@@ -172,6 +172,8 @@ def test_arrays_with_gaps_in_memory_are_read_as_they_are_meant():
         (("cauchy", {}, 1 + 2j, 30), "expected real numbers"),
         (("cauchy", {"m": 1}, 30, 30), '"m" is no parameter; expected one of n, k,'),
         (("cauchy", {"n": math.nan}, 30, 30), "n = NaN is not allowed"),
+        (("cauchy", {"n": 1e308}, 30, 30), "n = 1e308 is not allowed"),
+        (("cauchy", {}, 1e300, 30), "theta_i = 1e300 is outside"),
         (("cauchy", {"sigma": -1}, 30, 30), "sigma = -1 is not allowed"),
         (("cauchy", {"n": 0, "k": 0}, 30, 30), "n and k are both 0"),
         (("cauchy", {"n": [1, 2]}, 30, 30), r"parameters\['n'\] has the shape \(2,\); expected one number"),

@@ -129,6 +129,7 @@ def test_pandas_goes_both_ways():
     [
         ({"dolp": [0.1, math.nan]}, r"dolp\[1\] is NaN; what was not measured is None or masked"),
         ({"dolp": [0.1, 12.0]}, r"dolp\[1\] = 12, expected a DoLP from 0 to 1; divide percent by 100"),
+        ({"dolp": [0.1, 1e300]}, r"dolp\[1\] = 1e300, expected"),
         ({"dolp": [0.1, 1.17]}, r"dolp\[1\] = 1.17, .*; divide percent by 100; if it is noise, leave the row out, or mask it"),
         ({"dolp": np.array([0.1 + 0.1j, 0.2])}, "expected real numbers; take its .real, or its absolute values by numpy.abs"),
         ({"dolp": np.array(["0.1", "0.2"])}, r"expected numbers, not text; numpy.asarray\(..., dtype=float\) reads text"),

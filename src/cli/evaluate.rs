@@ -3,9 +3,9 @@
 use crate::cli::arguments::EvaluateArguments;
 use crate::cli::failure::Failure;
 use crate::cli::{input, interrupt, output};
-use pbrdf::measurement::{Expected, ReadError, ReadErrorKind, Record, Table, quote, shortest};
+use pbrdf::measurement::{Expected, ReadError, ReadErrorKind, Record, Table, quote};
 use pbrdf::model::{GradientRequest, Model, Parameter, ParameterError, Parameters, Pbrdf, PerParameter};
-use pbrdf::optics::{Facet, Geometry, GeometryError, SlopeDistribution};
+use pbrdf::optics::{Facet, Geometry, GeometryError, SlopeDistribution, shortest};
 use std::io::{self, Write};
 use std::process::ExitCode;
 

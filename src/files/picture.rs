@@ -3,8 +3,8 @@
 use crate::figure::HeatMap;
 use crate::files::export::{EndingError, Endings, extension};
 use exr::prelude::{SpecificChannels, WritableImage as _};
-use pbrdf::measurement::shortest;
 use pbrdf::model::{Lamp, Picture, StokesImage};
+use pbrdf::optics::shortest;
 use std::io::{self, Cursor, Write};
 use std::path::Path;
 

@@ -1,8 +1,8 @@
 //! The model along a series: DoLP, Fresnel limit, BRDF and its terms against θr.
 
-use pbrdf::measurement::{IncidenceSeries, shortest};
+use pbrdf::measurement::IncidenceSeries;
 use pbrdf::model::{Pbrdf, Reflection};
-use pbrdf::optics::Facet;
+use pbrdf::optics::{Facet, shortest};
 use std::io::{self, Write};
 
 /// One direction of a curve.

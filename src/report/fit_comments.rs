@@ -4,8 +4,9 @@
 //! other.
 
 use pbrdf::fit::{Edge, Estimate, EstimateStatus, Interval};
-use pbrdf::measurement::{Measurement, shortest};
+use pbrdf::measurement::Measurement;
 use pbrdf::model::Parameter;
+use pbrdf::optics::shortest;
 use pbrdf::rounding::significant;
 use std::fmt::Display;
 

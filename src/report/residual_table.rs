@@ -1,9 +1,9 @@
 //! A fitted model beside the measured values: columns for a table.
 
 use crate::report::fit_comments::{insert_comments, with_fit};
-use pbrdf::measurement::{Measurement, append_columns, shortest, write_measurements};
+use pbrdf::measurement::{Measurement, append_columns, write_measurements};
 use pbrdf::model::Pbrdf;
-use pbrdf::optics::Facet;
+use pbrdf::optics::{Facet, shortest};
 use std::io::{self, Write};
 
 /// Names of the columns that a fit adds to a measurement.

@@ -1,6 +1,7 @@
 //! The box that a fit stays in.
 
 use crate::model::{Parameter, Parameters};
+use crate::optics::shortest;
 
 /// Lower and upper bound of each parameter; by default the ranges of the sliders.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -13,7 +14,9 @@ pub struct Bounds {
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum BoundsError {
     /// The lower is not below the upper.
-    #[error("bounds of {} are {low} … {high}: the lower one must be below the upper one", .parameter.key())]
+    #[error(
+        "bounds of {} are {} … {}: the lower one must be below the upper one", .parameter.key(), shortest(*.low), shortest(*.high)
+    )]
     Order {
         /// Which parameter.
         parameter: Parameter,
@@ -23,7 +26,7 @@ pub enum BoundsError {
         high: f64,
     },
     /// A bound outside the mathematical domain.
-    #[error("bound {value} of {} is not allowed: expected {}", .parameter.key(), .parameter.domain())]
+    #[error("bound {} of {} is not allowed: expected {}", shortest(*.value), .parameter.key(), .parameter.domain())]
     Domain {
         /// Which parameter.
         parameter: Parameter,

@@ -3,6 +3,7 @@
 use crate::fit::observations::UnstatedSigma;
 use crate::fit::ties::TieError;
 use crate::model::Parameter;
+use crate::optics::shortest;
 
 /// Why data, model and options make no problem.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -19,7 +20,9 @@ pub enum ProblemError {
     #[error("the model predicts DoLP only, and no DoLP is measured")]
     NothingToPredict,
     /// A free parameter starts outside its bounds.
-    #[error("{} = {value} is outside its bounds {low} … {high}", .parameter.key())]
+    #[error(
+        "{} = {} is outside its bounds {} … {}", .parameter.key(), shortest(*.value), shortest(*.low), shortest(*.high)
+    )]
     StartOutsideBounds {
         /// Which parameter.
         parameter: Parameter,

@@ -3,8 +3,8 @@
 use crate::fit::estimate::{Edge, Estimate};
 use crate::fit::intervals::interval::Interval;
 use crate::fit::result::FitResult;
-use crate::measurement::shortest;
 use crate::model::{Parameter, ParameterSet};
+use crate::optics::shortest;
 use serde_json::json;
 use std::fmt;
 

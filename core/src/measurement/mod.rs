@@ -34,7 +34,7 @@ pub use expected::Expected;
 pub use field::{Channel, Field, Unit};
 pub use formats::{
     TensorAxis, TensorCount, TensorError, TensorErrorKind, TensorGrid, TensorResolution, TensorShape, TensorType, append_columns,
-    is_tensor, is_woollam, shortest, write_measurements, write_tensor,
+    is_tensor, is_woollam, write_measurements, write_tensor,
 };
 pub use hint::Hint;
 pub use mapping::{ColumnChoice, MappedColumn, Mapping, MappingError};

@@ -4,6 +4,7 @@
 //! line ends; blanks around the equals sign are allowed.
 
 use crate::model::{Domain, Parameter, ParameterSet, Parameters};
+use crate::optics::shortest;
 
 /// Why a text is no assignment.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -18,7 +19,7 @@ pub enum AssignmentError {
     #[error("{0:?} is not a finite number")]
     Number(String),
     /// A value outside the domain.
-    #[error("{} = {value} is not allowed: expected {expected}", .parameter.key())]
+    #[error("{} = {} is not allowed: expected {expected}", .parameter.key(), shortest(*.value))]
     Outside {
         /// Which parameter.
         parameter: Parameter,

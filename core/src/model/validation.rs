@@ -1,13 +1,13 @@
 //! Whether values are those of a surface.
 
 use crate::model::{Parameter, ParameterSet, Parameters};
-use crate::optics::{RefractiveIndex, RefractiveIndexError};
+use crate::optics::{RefractiveIndex, RefractiveIndexError, shortest};
 
 /// A value outside the domain.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum ParameterError {
     /// One parameter outside its domain.
-    #[error("{} = {value} is not allowed: expected {}", .parameter.key(), .parameter.domain())]
+    #[error("{} = {} is not allowed: expected {}", .parameter.key(), shortest(*.value), .parameter.domain())]
     Outside {
         /// Which.
         parameter: Parameter,

@@ -1,6 +1,6 @@
 //! Directions of incidence and view, and the rotations between their meridian planes and the facet's plane of incidence.
 
-use crate::optics::Degrees;
+use crate::optics::{Degrees, shortest};
 use serde::{Deserialize, Serialize};
 
 /// One pair of directions: zenith angles of incidence θi and of view θr, relative azimuth Δφ = φr − φi.
@@ -15,16 +15,16 @@ pub struct Geometry {
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum GeometryError {
     /// θi outside its range.
-    #[error("theta_i = {0} is outside 0 ≤ θi < 90 degrees")]
+    #[error("theta_i = {} is outside 0 ≤ θi < 90 degrees", shortest(*.0))]
     ThetaI(f64),
     /// θr outside its range.
-    #[error("theta_r = {0} is outside 0 ≤ θr < 90 degrees")]
+    #[error("theta_r = {} is outside 0 ≤ θr < 90 degrees", shortest(*.0))]
     ThetaR(f64),
     /// Signed θr outside its range.
-    #[error("theta_r = {0} is outside −90 < θr < 90 degrees")]
+    #[error("theta_r = {} is outside −90 < θr < 90 degrees", shortest(*.0))]
     SignedThetaR(f64),
     /// Δφ infinite or not a number.
-    #[error("dphi = {0} is not a finite angle")]
+    #[error("dphi = {} is not a finite angle", shortest(*.0))]
     Dphi(f64),
 }
 

@@ -13,6 +13,7 @@ mod metals;
 mod polarization;
 mod quadrature;
 mod refractive_index;
+mod shortest;
 mod slope_distribution;
 mod v_grooves;
 
@@ -27,6 +28,7 @@ pub(crate) use polarization::angle_of_polarisation;
 pub use polarization::{Mueller, Stokes};
 pub(crate) use quadrature::{Order, pieces};
 pub use refractive_index::{RefractiveIndex, RefractiveIndexError};
+pub use shortest::shortest;
 pub use slope_distribution::SlopeDistribution;
 pub(crate) use slope_distribution::reduced_slope_sq;
 pub(crate) use v_grooves::VGrooves;

@@ -1,5 +1,6 @@
 //! The complex refractive index N = n + i k_m.
 
+use crate::optics::shortest;
 use serde::{Deserialize, Serialize};
 
 /// Complex refractive index n + i k_m relative to the medium of incidence; fields vary as exp(−iωt).
@@ -13,10 +14,10 @@ pub struct RefractiveIndex {
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum RefractiveIndexError {
     /// n is outside its range.
-    #[error("n = {0} is outside 0 ≤ n ≤ 1e10")]
+    #[error("n = {} is outside 0 ≤ n ≤ 1e10", shortest(*.0))]
     N(f64),
     /// k is outside its range.
-    #[error("k = {0} is outside 0 ≤ k ≤ 1e10")]
+    #[error("k = {} is outside 0 ≤ k ≤ 1e10", shortest(*.0))]
     K(f64),
     /// A medium without any refractive index.
     #[error("n and k are both 0")]

@@ -12,6 +12,7 @@ use crate::app::work::surface::Surface;
 use egui::{DragValue, Response, Slider, SliderClamping, Ui};
 use pbrdf::fit::FitResult;
 use pbrdf::model::Parameter;
+use pbrdf::optics::shortest;
 use std::cell::RefCell;
 use std::ops::RangeInclusive;
 use tr::tr;
@@ -63,6 +64,7 @@ pub fn slider_ui(
     let domain = parameter.domain();
     let speed = (0.005 * value.abs()).max(1e-4);
     let refused = RefCell::new(None);
+    let written = RefCell::new(None);
     let refuse = |found: &str| {
         *refused.borrow_mut() = Some(tr!("{0}: found {1}, expected {2}.", parameter.symbol(), format!("{found:?}"), domain.localized()));
     };
@@ -71,7 +73,8 @@ pub fn slider_ui(
             // Text as it was shown means the value as it was, with all its digits.
             Some(new) if significant(new) == significant(*value) => {}
             Some(new) if domain.contains(new) => *value = new,
-            Some(new) => refuse(&new.to_string()),
+            // As it was written; a drag and a screen reader write nothing.
+            Some(new) => refuse(&written.take().unwrap_or_else(|| shortest(new))),
             None => {}
         }
         *value
@@ -81,6 +84,7 @@ pub fn slider_ui(
         if parsed.is_none() {
             refuse(text);
         }
+        written.replace(Some(text.trim().to_owned()));
         parsed
     };
     let unit = parameter.unit();

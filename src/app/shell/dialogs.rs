@@ -27,6 +27,8 @@ pub struct Dialogs {
     /// The step of the tour that is shown.
     pub tour: Option<usize>,
     pub room: Room,
+    /// What a key asks for while a value is being typed: the field gives its value first.
+    pub after_typing: Option<Action>,
 }
 
 /// The lists above the sliders, with the names that are being typed.

@@ -1,7 +1,7 @@
 //! Sliders and switches.
 
 use crate::app::shell::app::App;
-use crate::app::tests::{explorer, harness};
+use crate::app::tests::{explorer, harness, wait};
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
@@ -53,6 +53,41 @@ fn a_lobe_that_is_off_hides_its_sliders() {
     assert_eq!(explorer.work.surface().model.diffuse, Diffuse::Absent);
     let own = &explorer.derived.curves.get().expect("curves").own;
     assert!(own.diffuse.is_empty() && own.volume.is_empty());
+}
+
+/// Types into the box of n.
+fn type_n(harness: &mut Harness<'static, Option<App>>, text: &str) {
+    harness.get_by_role_and_label(Role::SpinButton, "n").focus();
+    harness.run();
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
+    harness.event(egui::Event::Text(text.to_owned()));
+    harness.run();
+}
+
+#[test]
+fn a_function_key_takes_the_value_that_is_being_typed_and_does_what_it_does() {
+    let mut harness = harness();
+    type_n(&mut harness, "1.7");
+    harness.key_press(egui::Key::F1);
+    wait(&mut harness);
+    assert_eq!(explorer(&mut harness).work.surface().parameters.n, 1.7);
+    assert!(explorer(&mut harness).dialogs.help.take().is_some());
+    wait(&mut harness);
+    type_n(&mut harness, "1.8");
+    harness.key_press(egui::Key::F5);
+    wait(&mut harness);
+    assert_eq!(explorer(&mut harness).work.fit_history().len(), 1);
+}
+
+#[test]
+fn a_refused_value_is_quoted_as_it_was_typed() {
+    let mut harness = harness();
+    type_n(&mut harness, "1e308");
+    harness.key_press(egui::Key::Enter);
+    wait(&mut harness);
+    let notice = explorer(&mut harness).toasts.take().expect("n has an end");
+    assert_eq!(notice, "n: found \"1e308\", expected a number from 0 to 1e10.");
+    assert_eq!(explorer(&mut harness).work.surface().parameters, Parameters::default());
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 use crate::fit::bounds::Bounds;
 use crate::model::Parameter;
+use crate::optics::shortest;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{FRAC_1_SQRT_2, TAU};
 
@@ -39,7 +40,7 @@ pub enum Prior {
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum PriorError {
     /// The prior reaches outside the bounds, or of a Gaussian next to nothing lies inside.
-    #[error("the prior of {} lies outside its bounds {low} … {high}", .parameter.key())]
+    #[error("the prior of {} lies outside its bounds {} … {}", .parameter.key(), shortest(*.low), shortest(*.high))]
     OutsideBounds {
         /// Of which parameter.
         parameter: Parameter,

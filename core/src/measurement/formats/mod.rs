@@ -25,7 +25,7 @@ pub use crate::measurement::note::{ImportNote, LineList};
 pub use error::ImportError;
 pub use format::{ForeignFile, Format};
 pub use imported::Imported;
-pub use native::{append_columns, shortest, write_measurements};
+pub use native::{append_columns, write_measurements};
 pub use pbsdf::{
     TensorAxis, TensorCount, TensorError, TensorErrorKind, TensorGrid, TensorResolution, TensorShape, TensorType, is_tensor, write_tensor,
 };

@@ -16,6 +16,7 @@
 use crate::measurement::rows::RowReader;
 use crate::measurement::table::{BYTE_ORDER_MARK, separator_of};
 use crate::measurement::{Measurement, Progress, Quantity, ReadError, Row, Table, unwatched};
+use crate::optics::shortest;
 use std::io::{self, Read, Write};
 
 /// Names of the columns.
@@ -197,14 +198,6 @@ impl Layout {
 fn quoted(cell: &str) -> String {
     let cell = cell.replace(['\n', '\r', '\0'], " ");
     if cell.contains([',', '"', ';', '\t', '#']) || cell.trim() != cell { format!("\"{}\"", cell.replace('"', "'")) } else { cell }
-}
-
-/// The shortest text that reads back to the same f64; −0 as 0.
-#[must_use]
-pub fn shortest(number: f64) -> String {
-    // Adding 0 turns −0 into 0.
-    let number = number + 0.0;
-    if number == 0.0 || (1e-4..1e16).contains(&number.abs()) || !number.is_finite() { number.to_string() } else { format!("{number:e}") }
 }
 
 /// Copies a table that [`Measurement::read`] accepts, with further cells at the end of its header

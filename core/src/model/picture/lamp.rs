@@ -1,6 +1,6 @@
 //! A distant lamp, and the geometry under which a point with a given normal shows its light to the camera.
 
-use crate::optics::{Degrees, Facet, Geometry};
+use crate::optics::{Degrees, Facet, Geometry, shortest};
 use std::f64::consts::PI;
 
 /// Direction of a distant, unpolarised lamp whose irradiance across its beam is 1.
@@ -15,7 +15,7 @@ pub struct Lamp {
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum LampError {
     /// Angle from z outside its range.
-    #[error("the angle of the lamp from z, {0}, is outside 0 to 180 degrees")]
+    #[error("the angle of the lamp from z, {}, is outside 0 to 180 degrees", shortest(*.0))]
     Polar(f64),
     /// Angle from x infinite or not a number.
     #[error("the azimuth of the lamp, {0}, is not a finite angle")]

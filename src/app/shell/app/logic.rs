@@ -85,12 +85,17 @@ fn readings(app: &App) -> Vec<ReadoutPlace> {
 }
 
 fn listen_to_keys(app: &mut App, ctx: &egui::Context) {
+    app.actions.extend(app.dialogs.after_typing.take());
     // Keys belong to the question that is asked, or to the field that is being typed into as far as it has a use for them.
     if app.dialogs.import.is_some() || app.dialogs.overwrite.is_some() {
         return;
     }
     if ctx.text_edit_focused() {
-        app.actions.extend(shortcuts::pressed_while_typing(app, ctx));
+        if let Some(action) = shortcuts::pressed_while_typing(app, ctx) {
+            app.dialogs.after_typing = Some(action);
+            ctx.memory_mut(egui::Memory::stop_text_input);
+            ctx.request_repaint();
+        }
         return;
     }
     if app.jobs.fits.walking_since.is_some() && ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape)) {

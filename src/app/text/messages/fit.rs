@@ -7,7 +7,7 @@ use pbrdf::fit::{
     ProblemError, StopReason, TieError, Undetermined, UndeterminedDirection, UndeterminedReason, UnknownName, Verdict, symbols,
 };
 use pbrdf::model::Parameter;
-use pbrdf::optics::SlopeDistribution;
+use pbrdf::optics::{SlopeDistribution, shortest};
 use tr::tr;
 
 impl Localized for StopReason {
@@ -77,7 +77,7 @@ impl Localized for ProblemError {
             }
             Self::NothingToPredict => tr!("the model predicts DoLP only, and no DoLP is measured"),
             Self::StartOutsideBounds { parameter, value, low, high } => {
-                tr!("{0} = {1} is outside its bounds {2} … {3}", parameter.key(), value, low, high)
+                tr!("{0} = {1} is outside its bounds {2} … {3}", parameter.key(), shortest(*value), shortest(*low), shortest(*high))
             }
             Self::Tie(error) => error.localized(),
         }
@@ -179,10 +179,15 @@ impl Localized for BoundsError {
     fn localized(&self) -> String {
         match self {
             Self::Order { parameter, low, high } => {
-                tr!("bounds of {0} are {1} … {2}: the lower one must be below the upper one", parameter.key(), low, high)
+                tr!(
+                    "bounds of {0} are {1} … {2}: the lower one must be below the upper one",
+                    parameter.key(),
+                    shortest(*low),
+                    shortest(*high)
+                )
             }
             Self::Domain { parameter, value } => {
-                tr!("bound {0} of {1} is not allowed: expected {2}", value, parameter.key(), parameter.domain().localized())
+                tr!("bound {0} of {1} is not allowed: expected {2}", shortest(*value), parameter.key(), parameter.domain().localized())
             }
         }
     }

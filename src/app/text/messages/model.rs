@@ -2,7 +2,7 @@
 
 use crate::app::text::localized::Localized;
 use pbrdf::model::{AssignmentError, Check, Domain, Finding, Parameter, ParameterError};
-use pbrdf::optics::{GeometryError, SlopeDistribution};
+use pbrdf::optics::{GeometryError, SlopeDistribution, shortest};
 use tr::tr;
 
 impl Localized for SlopeDistribution {
@@ -17,10 +17,10 @@ impl Localized for SlopeDistribution {
 impl Localized for GeometryError {
     fn localized(&self) -> String {
         match self {
-            Self::ThetaI(found) => tr!("theta_i = {} is outside 0 ≤ θi < 90 degrees", found),
-            Self::ThetaR(found) => tr!("theta_r = {} is outside 0 ≤ θr < 90 degrees", found),
-            Self::SignedThetaR(found) => tr!("theta_r = {} is outside −90 < θr < 90 degrees", found),
-            Self::Dphi(found) => tr!("dphi = {} is not a finite angle", found),
+            Self::ThetaI(found) => tr!("theta_i = {} is outside 0 ≤ θi < 90 degrees", shortest(*found)),
+            Self::ThetaR(found) => tr!("theta_r = {} is outside 0 ≤ θr < 90 degrees", shortest(*found)),
+            Self::SignedThetaR(found) => tr!("theta_r = {} is outside −90 < θr < 90 degrees", shortest(*found)),
+            Self::Dphi(found) => tr!("dphi = {} is not a finite angle", shortest(*found)),
         }
     }
 }
@@ -45,7 +45,7 @@ impl Localized for ParameterError {
 }
 
 fn outside(parameter: Parameter, value: f64, expected: Domain) -> String {
-    tr!("{0} = {1} is not allowed: expected {2}", parameter.key(), value, expected.localized())
+    tr!("{0} = {1} is not allowed: expected {2}", parameter.key(), shortest(value), expected.localized())
 }
 
 impl Localized for AssignmentError {

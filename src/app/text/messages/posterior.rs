@@ -4,13 +4,14 @@ use crate::app::text::i18n::translated;
 use crate::app::text::localized::Localized;
 use pbrdf::fit::UnknownName;
 use pbrdf::fit::posterior::{OddsGrade, PosteriorError, PosteriorVerdict, PriorError};
+use pbrdf::optics::shortest;
 use tr::tr;
 
 impl Localized for PriorError {
     fn localized(&self) -> String {
         match self {
             Self::OutsideBounds { parameter, low, high } => {
-                tr!("the prior of {0} lies outside its bounds {1} … {2}", parameter.symbol(), low, high)
+                tr!("the prior of {0} lies outside its bounds {1} … {2}", parameter.symbol(), shortest(*low), shortest(*high))
             }
             Self::NoDistribution { parameter, expected } => {
                 tr!("the prior of {0} is no distribution: {1}", parameter.symbol(), translated(expected))
