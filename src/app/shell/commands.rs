@@ -309,6 +309,19 @@ fn item(action: Action, menu: Menu, text: Cow<'static, str>, tooltip: Cow<'stati
     Command { action, menu, text, tooltip, shortcut: None, status }
 }
 
+/// Forth and back in the open lesson, with the keys that a presenter's remote sends.
+fn lesson_steps(app: &App) -> Vec<Command> {
+    let (Some((lesson, step)), Some((of, _))) = (app.lessons.open(), app.lessons.current()) else { return Vec::new() };
+    let next = (step + 1 < of.steps.len()).then(|| (step + 1, tr!("Next step"), Key::PageDown));
+    let before = step.checked_sub(1).map(|step| (step, tr!("Previous step"), Key::PageUp));
+    let title = of.title.in_language(i18n::current().code());
+    let command = |(step, text, key): (usize, String, Key)| Command {
+        shortcut: plain(key),
+        ..item(Action::ShowStep(lesson, step), Menu::Lesson, text.into(), title.to_owned().into(), Availability::Possible)
+    };
+    next.into_iter().chain(before).map(command).collect()
+}
+
 fn finishes() -> impl Iterator<Item = Command> {
     FINISHES.iter().enumerate().map(|(i, finish)| {
         let text = tr!("Surface finish: {}", translated(finish.name));
@@ -459,6 +472,7 @@ pub fn items(app: &App) -> Vec<Command> {
         .chain(measurements(app))
         .chain(sharings(app))
         .chain(examples)
+        .chain(lesson_steps(app))
         .chain(lessons)
         .chain(recent_files(app))
         .chain(panes)

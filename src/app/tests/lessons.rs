@@ -61,6 +61,27 @@ fn a_lesson_sets_the_sliders_and_goes_on_at_a_click() {
 }
 
 #[test]
+fn a_presenters_remote_goes_through_the_steps_of_a_lesson() {
+    let mut harness = harness();
+    harness.key_press(egui::Key::PageDown);
+    harness.run();
+    assert_eq!(explorer(&mut harness).lessons.open(), None);
+    explorer(&mut harness).actions.push(Action::ShowStep(0, 0));
+    harness.run();
+    let last = explorer(&mut harness).lessons.all[0].steps.len() - 1;
+    for (key, step) in [(egui::Key::PageUp, 0), (egui::Key::PageDown, 1), (egui::Key::PageUp, 0)] {
+        harness.key_press(key);
+        harness.run();
+        assert_eq!(explorer(&mut harness).lessons.open(), Some((0, step)), "{key:?}");
+    }
+    explorer(&mut harness).actions.push(Action::ShowStep(0, last));
+    harness.run();
+    harness.key_press(egui::Key::PageDown);
+    harness.run();
+    assert_eq!(explorer(&mut harness).lessons.open(), Some((0, last)), "only Done and Close lesson end it");
+}
+
+#[test]
 fn the_buttons_of_a_lesson_stand_in_a_line() {
     let mut harness = harness();
     explorer(&mut harness).actions.push(Action::ShowStep(0, 0));
