@@ -96,7 +96,7 @@ def test_rows_beyond_the_horizon_are_left_out_and_written_back(tmp_path):
         data = pbrdf.read(path)
     assert data.theta_r.tolist() == [40.0]
     data.write(path)
-    assert any(line.startswith("30,95,") and line.endswith(",1") for line in path.read_text(encoding="utf-8").splitlines())
+    assert any(line.endswith("30,95,180,0.5,1") for line in path.read_text(encoding="utf-8").splitlines())
 
 
 def test_columns_are_made_once_and_cannot_be_changed_by_accident():
