@@ -152,7 +152,7 @@ def _evaluation(numbers: Array, shape: tuple[int, ...], terms: Any, mueller: Any
         return values.reshape(of)[()]
 
     brdf, dolp = column(), column()
-    parts = [column() if terms else None for _ in range(3)]
+    specular, diffuse, volume = (column(), column(), column()) if terms else (None, None, None)
     matrices = column((*shape, 4, 4)) if mueller else None
-    gradients = [{name: column() for name in by} for _ in range(2)] if by else [None, None]
-    return Evaluation(brdf, dolp, *parts, matrices, *gradients)
+    of_brdf, of_dolp = ({name: column() for name in by}, {name: column() for name in by}) if by else (None, None)
+    return Evaluation(brdf, dolp, specular, diffuse, volume, matrices, of_brdf, of_dolp)
