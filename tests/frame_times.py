@@ -6,7 +6,8 @@
 Opens that many simulated measurements of so many points with so many pinned surfaces in a window of 1280 x 800 under a
 virtual display, drags a slider (which, it says) for seven seconds, and prints median and 99th percentile of the last five. Without
 numbers: three measurements of 27 points and ten of 500, with two pins each. PANE brings further panes to the screen, beside
-DoLP and lobes. With --lamp and the pane "picture" as the last one, the lamp is turned in the picture in place of a slider. Needs Xvfb, xdotool and scrot. GALLIUM_NOOP=1 in the environment leaves out Mesa's software rasteriser.
+DoLP and lobes. With --lamp and the pane "picture" as the last one, the lamp is turned in the picture in place of a slider.
+Needs Xvfb, xdotool and scrot. GALLIUM_NOOP=1 in the environment leaves out Mesa's software rasteriser.
 """
 
 import json

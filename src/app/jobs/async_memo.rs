@@ -18,14 +18,8 @@ impl<K, V> Running<K, V> {
         Self { key, begun_at: frame, wanted_at: frame, job }
     }
 
-    #[cfg(not(target_arch = "wasm32"))]
     fn result(&self, frame: Option<u64>, patience: Duration) -> Result<Option<V>, Panicked> {
         if frame == Some(self.begun_at + 1) { self.job.wait(patience) } else { self.job.poll() }
-    }
-
-    #[cfg(target_arch = "wasm32")]
-    fn result(&self, _frame: Option<u64>, _patience: Duration) -> Result<Option<V>, Panicked> {
-        self.job.poll()
     }
 }
 

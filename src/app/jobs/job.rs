@@ -81,18 +81,27 @@ impl<T, P> Job<T, P> {
     }
 }
 
-#[cfg(not(target_arch = "wasm32"))]
 impl<T, P> Job<T, P> {
     /// The result, if it comes within that time.
     ///
     /// # Errors
     /// The job panicked.
+    #[cfg(not(target_arch = "wasm32"))]
     pub fn wait(&self, patience: Duration) -> Result<Option<T>, Panicked> {
         match self.receiver.recv_timeout(patience) {
             Ok(result) => Ok(Some(result)),
             Err(RecvTimeoutError::Timeout) => Ok(None),
             Err(RecvTimeoutError::Disconnected) => Err(Panicked),
         }
+    }
+
+    /// The result, if it is there: a page cannot wait.
+    ///
+    /// # Errors
+    /// The job panicked.
+    #[cfg(target_arch = "wasm32")]
+    pub fn wait(&self, _patience: Duration) -> Result<Option<T>, Panicked> {
+        self.poll()
     }
 }
 

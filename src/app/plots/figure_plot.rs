@@ -190,7 +190,7 @@ impl PanelPlot {
         let x_axis = axis(AxisHints::new_x(), ui, &x_title, |at, step| x.label(at, step)).min_thickness(BELOW);
         let is_strip = style.place == PanelPlace::Strip;
         let below = if style.place == PanelPlace::OverStrip { 0.0 } else { BELOW };
-        let is_above = is_strip || !fits_upright(&y.title, style.height - below, ui);
+        let is_above = is_strip || !fits_along(&y.title, style.height - below, ui);
         let height = if is_above && !is_strip {
             ui.add_space(ABOVE);
             style.height - ABOVE - ui.spacing().item_spacing.y
@@ -275,10 +275,15 @@ impl PanelPlot {
 /// Room of the horizontal axis: numbers and title.
 const BELOW: f32 = 40.0;
 
-/// Whether the title of a vertical axis of that length is no longer than the axis itself.
-fn fits_upright(title: &str, length: f32, ui: &Ui) -> bool {
+/// Whether the title of an axis of that length is no longer than the axis itself.
+fn fits_along(title: &str, length: f32, ui: &Ui) -> bool {
+    title_length(title, ui) <= length
+}
+
+/// Length of the title of an axis, in points.
+fn title_length(title: &str, ui: &Ui) -> f32 {
     let font = egui::TextStyle::Body.resolve(ui.style());
-    ui.painter().layout_no_wrap(title.to_owned(), font, ui.visuals().text_color()).size().x <= length
+    ui.painter().layout_no_wrap(title.to_owned(), font, ui.visuals().text_color()).size().x
 }
 
 /// What stands along a horizontal axis: with as much of the title of its panel as there is room for, which is told in parts
@@ -286,7 +291,7 @@ fn fits_upright(title: &str, length: f32, ui: &Ui) -> bool {
 fn fitting_title(axis: &str, title: &str, room: f32, ui: &Ui) -> String {
     let ends = title.match_indices([';', '；']).map(|(end, _)| end).chain([title.len()]);
     let texts = ends.filter(|end| *end > 0).map(|end| tr!("{0}  at {1}", axis, &title[..end]));
-    let mut fitting = texts.filter(|text| fits_upright(text, room, ui));
+    let mut fitting = texts.filter(|text| fits_along(text, room, ui));
     fitting.next_back().unwrap_or_else(|| axis.to_owned())
 }
 
@@ -311,6 +316,11 @@ fn corner_title(title: &str, plot: Rect, anchor: Align2, ui: &Ui) {
 }
 
 impl PanelPlot {
+    /// Length of what stands along the vertical axis, in points.
+    pub fn y_title_length(&self, ui: &Ui) -> f32 {
+        self.content.as_ref().map_or(0.0, |content| title_length(&content.y.title, ui))
+    }
+
     /// Paints it as one of many with a map or without: titles and numbers stand at the axes that lie at the rim and take
     /// `room`. A screen reader says its name. It cannot be moved; the answer has the place of a click.
     pub fn tile_ui(&mut self, name: &str, size: Vec2, [below, left]: [bool; 2], room: Vec2, ui: &mut Ui) -> Option<PlotResponse<()>> {

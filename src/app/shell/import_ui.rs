@@ -95,8 +95,7 @@ fn alike_ui(alike: &mut AlikeFiles, ui: &mut Ui) {
     let text = if alike.opened.is_empty() {
         tr!("also apply to the other file of this folder" | "also apply to the other {n} files of this folder" % paths.len())
     } else {
-        tr!("also apply to the other file that was opened with it"
-            | "also apply to the other {n} files that were opened with it" % paths.len())
+        tr!("also apply to the other file opened with it" | "also apply to the other {n} files opened with it" % paths.len())
     };
     let name = |path: &PathBuf| path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     let mut names: Vec<String> = paths.iter().take(NAMED).map(name).collect();

@@ -147,7 +147,7 @@ fn the_tour_of_the_first_start_waits_until_a_table_is_answered() {
     wait(&mut harness);
     assert!(harness.query_by_label("Skip the tour").is_some());
     open(&mut harness, paths);
-    harness.get_by_label("also apply to the other file that was opened with it");
+    harness.get_by_label("also apply to the other file opened with it");
     assert!(harness.query_by_label("Skip the tour").is_none(), "it would lie over the dialog, and hold the key Enter");
     harness.key_press(egui::Key::Enter);
     wait(&mut harness);
@@ -164,7 +164,7 @@ fn files_of_one_shape_that_are_opened_together_need_one_answer() {
     paths.extend(others);
     let mut harness = harness();
     open(&mut harness, paths);
-    harness.get_by_label("also apply to the other 2 files that were opened with it");
+    harness.get_by_label("also apply to the other 2 files opened with it");
     harness.key_press(egui::Key::Enter);
     wait(&mut harness);
     harness.get_by_label("Import d.csv");

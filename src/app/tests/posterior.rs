@@ -199,6 +199,21 @@ fn several_measurements_have_one_posterior_and_a_draw_moves_the_sliders_of_each(
 }
 
 #[test]
+fn names_along_a_low_corner_plot_do_not_overlap() {
+    let mut harness = two();
+    harness.set_size(egui::vec2(1024.0, 400.0));
+    order(&mut harness, Action::Inquire(InquiryAction::DrawPosterior));
+    let upright = |shape: &egui::epaint::ClippedShape| match &shape.shape {
+        egui::Shape::Text(text) if text.angle != 0.0 => Some((text.galley.text().to_owned(), text.visual_bounding_rect())),
+        _ => None,
+    };
+    let mut names: Vec<_> = harness.output().shapes.iter().filter_map(upright).filter(|(name, _)| name.starts_with('n')).collect();
+    names.sort_by(|(_, a), (_, b)| a.top().total_cmp(&b.top()));
+    assert_eq!(names.len(), 2, "{names:?}");
+    assert!(names[0].1.bottom() <= names[1].1.top(), "{names:?}");
+}
+
+#[test]
 fn sliders_walk_to_a_bound_in_one_step_of_undo_and_escape_takes_them_back() {
     let mut harness = harness();
     order(&mut harness, Action::StartFit);

@@ -45,6 +45,8 @@ pub struct PosteriorView {
 
 /// Least size of a panel of the corner plot, in points.
 const LEAST: Vec2 = vec2(56.0, 31.0);
+/// How large a panel is made for the sake of a long name, in points.
+const LONGEST: f32 = 140.0;
 /// Room for numbers and names at the outer axes.
 const RIM: Vec2 = vec2(52.0, 36.0);
 /// Between panels.
@@ -207,7 +209,9 @@ impl PosteriorView {
         #[expect(clippy::cast_precision_loss, reason = "a handful of panels")]
         let panels = count as f32;
         let room = (vec2(ui.available_width(), height) - RIM) / panels - vec2(SEAM, SEAM);
-        let size = room.max(LEAST);
+        // Names of parameters with those of their measurements are longer than a small panel is high.
+        let longest = self.plot.panels().iter().step_by(count).map(|panel| panel.y_title_length(ui)).fold(0.0, f32::max);
+        let size = room.max(LEAST).max(Vec2::splat(longest.min(LONGEST)));
         let size = vec2(size.x.min(WIDEST * size.y), size.y);
         let whole = RIM + panels * (size + vec2(SEAM, SEAM));
         let mut clicked = None;
