@@ -21,8 +21,9 @@ if [ "$(wasm-bindgen --version 2>/dev/null || true)" = "wasm-bindgen $bindgen" ]
   wasm_bindgen=wasm-bindgen
 else
   wasm_bindgen=$tools/bin/wasm-bindgen
-  [ "$("$wasm_bindgen" --version 2>/dev/null || true)" = "wasm-bindgen $bindgen" ] ||
-    CARGO_TARGET_DIR=$tools/build cargo install --quiet --locked wasm-bindgen-cli --version "$bindgen" --root "$tools"
+  install_bindgen() { CARGO_TARGET_DIR=$tools/build cargo install --quiet "$@" wasm-bindgen-cli --version "$bindgen" --root "$tools"; }
+  # A mirror of the registry may lack a version that the tool's lock file names.
+  [ "$("$wasm_bindgen" --version 2>/dev/null || true)" = "wasm-bindgen $bindgen" ] || install_bindgen --locked || install_bindgen
 fi
 
 # Unpacks Debian's compiler for browsers, and names it to cargo.
