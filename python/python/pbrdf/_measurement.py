@@ -33,7 +33,9 @@ class Measurement:
         name: What it is called in results.
         metadata: Texts by keys, such as ``{"wavelength_nm": "650"}``.
 
-    Its columns are read-only arrays: ``copy()`` gives one that can be changed. All broadcast to one row of numbers. At least one of ``dolp`` and ``brdf`` is needed. What was not measured is None, or masked in a
+    Its columns are read-only arrays: ``copy()`` gives one that can be changed.
+
+    All broadcast to one row of numbers. At least one of ``dolp`` and ``brdf`` is needed. What was not measured is None, or masked in a
     ``numpy.ma`` array; NaN is refused.
 
     Raises:
