@@ -61,17 +61,7 @@ def big_s(z):
     return (sin(x) / x - 1) / z
 
 
-def big_c(z):
-    if z < mpf(10) ** -12:
-        return mpf(1) / 24 - z / 720
-    return (cos(sqrt(z)) - 1 + z / 2) / z**2
-
-
 for name, largest, degree in (("S", LARGEST_ANGLE_SQ, 5), ("L", LARGEST_ANGLE_SQ * 4, 7)):
     sine = interpolate(big_s, mpf(0), largest, degree)
     error = max(abs((1 + z * value(sine, z)) / (1 + z * big_s(z)) - 1) for z in linspace(0, largest, 2001))
     print(name, nstr(error, 3), *map(repr, sine), sep="\n  ")
-
-cosine = interpolate(big_c, mpf(0), LARGEST_ANGLE_SQ, 5)
-error = max(abs((1 - z / 2 + z * z * value(cosine, z)) / cos(sqrt(z)) - 1) for z in linspace(0, LARGEST_ANGLE_SQ, 2001))
-print("C", nstr(error, 3), *map(repr, cosine), sep="\n  ")

@@ -47,7 +47,7 @@ impl Runner {
     }
 }
 
-/// DoLP, BRDF and its specular part of so many prepared points that no [`crate::model::Batch`] holds, on the calling thread.
+/// DoLP, BRDF and its specular part of `count` prepared points that no [`crate::model::Batch`] holds, on the calling thread.
 /// A column that is not wanted is empty; `reflection` is the scalar form at the point of that number.
 pub(crate) fn radiances_of_blocks(
     surface: &Pbrdf,
