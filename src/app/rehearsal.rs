@@ -24,7 +24,7 @@ use pbrdf::fit::Starts;
 const SIZES: [Vec2; 2] = [Vec2::new(1366.0, 768.0), Vec2::new(844.0, 390.0)];
 
 /// A window without a screen.
-struct Stage {
+struct Rehearsal {
     ctx: egui::Context,
     app: App,
     size: Vec2,
@@ -36,19 +36,19 @@ pub fn rehearse() -> bool {
     let ctx = egui::Context::default();
     let mut app = App::new(&ctx, SettingsFile::default());
     begin(&mut app);
-    let mut stage = Stage { ctx, app, size: SIZES[0], begun: Instant::now() };
-    stage.frame(Vec::new());
-    let is_fitted = stage.fit().is_some();
+    let mut rehearsal = Rehearsal { ctx, app, size: SIZES[0], begun: Instant::now() };
+    rehearsal.frame(Vec::new());
+    let is_fitted = rehearsal.fit().is_some();
     // There is no other worker that would do it.
-    stage.press(Key::F5, Modifiers::NONE);
-    stage.keep();
-    stage.touch_all();
-    stage.press(Key::Z, Modifiers::COMMAND);
-    stage.look_around();
+    rehearsal.press(Key::F5, Modifiers::NONE);
+    rehearsal.keep();
+    rehearsal.touch_all();
+    rehearsal.press(Key::Z, Modifiers::COMMAND);
+    rehearsal.look_around();
     is_fitted
 }
 
-impl Stage {
+impl Rehearsal {
     fn frame(&mut self, events: Vec<Event>) {
         let Self { ctx, app, size, begun } = self;
         app.dialogs.room.may_be_small = true;
