@@ -4,7 +4,7 @@
 Needs mpmath. Beside each polynomial: the largest relative error of the function with the rounded coefficients, without rounding in its evaluation.
 """
 
-from mpmath import cos, exp, linspace, log, lu_solve, matrix, mp, mpf, nstr, pi, polyval, sin, sqrt
+from mpmath import cos, linspace, log, lu_solve, matrix, mp, mpf, nstr, pi, polyval, sin, sqrt
 
 mp.dps = 50
 
@@ -27,13 +27,17 @@ def value(coefficients, x):
     return polyval([mpf(c) for c in reversed(coefficients)], x)
 
 
+def show(name, error, coefficients):
+    print(name, nstr(error, 3), *map(repr, coefficients), sep="\n  ")
+
+
 # Reduced arguments, a little widened for the rounding of the reduction.
-HALF_LN_2 = log(2) / 2 * mpf("1.0001")
+HALF = mpf("0.50005")
 LARGEST_S_SQ = ((sqrt(2) - 1) / (sqrt(2) + 1)) ** 2 * mpf("1.0001")
 
 
-def q(r):
-    return (exp(r) - 1 - r) / r**2 if abs(r) > mpf(10) ** -12 else mpf(1) / 2 + r / 6
+def q(f):
+    return (mpf(2) ** f - 1) / f if abs(f) > mpf(10) ** -12 else log(2) + f * log(2) ** 2 / 2
 
 
 def big_r(z):
@@ -43,25 +47,28 @@ def big_r(z):
     return (log((1 + s) / (1 - s)) - 2 * s) / s / z
 
 
-exponential = interpolate(q, -HALF_LN_2, HALF_LN_2, 9)
-error = max(abs((1 + r + r * r * value(exponential, r)) / exp(r) - 1) for r in linspace(-HALF_LN_2, HALF_LN_2, 2001))
-print("Q", nstr(error, 3), *map(repr, exponential), sep="\n  ")
+power = interpolate(q, -HALF, HALF, 10)
+error = max(abs((1 + f * value(power, f)) / mpf(2) ** f - 1) for f in linspace(-HALF, HALF, 2001))
+show("Q_EVEN, then Q_ODD", error, power[::2] + power[1::2])
 
 logarithm = interpolate(big_r, mpf(0), LARGEST_S_SQ, 6)
 error = max(abs((2 + z * value(logarithm, z)) / (2 + z * big_r(z)) - 1) for z in linspace(0, LARGEST_S_SQ, 2001))
-print("R", nstr(error, 3), *map(repr, logarithm), sep="\n  ")
+show("R", error, logarithm)
 
-LARGEST_ANGLE_SQ = (pi / 4) ** 2 * mpf("1.0001")
-
-
-def big_s(z):
-    if z < mpf(10) ** -12:
-        return -mpf(1) / 6 + z / 120
-    x = sqrt(z)
-    return (sin(x) / x - 1) / z
+# π/360 as a double, so that the sine of half a small angle has all digits.
+HALF_DEGREE = float(pi / 360)
 
 
-for name, largest, degree in (("S", LARGEST_ANGLE_SQ, 5), ("L", LARGEST_ANGLE_SQ * 4, 7)):
-    sine = interpolate(big_s, mpf(0), largest, degree)
-    error = max(abs((1 + z * value(sine, z)) / (1 + z * big_s(z)) - 1) for z in linspace(0, largest, 2001))
-    print(name, nstr(error, 3), *map(repr, sine), sep="\n  ")
+def sine_of_half_over_angle(z):
+    """sin ½θ/θ, θ in degrees, z = θ²."""
+    if z == 0:
+        return pi / 360
+    degrees = sqrt(z)
+    return sin(degrees * pi / 360) / degrees
+
+
+for name, largest, degree in (("S", 90, 5), ("L", 180, 7)):
+    largest_sq = mpf(largest) ** 2 * mpf("1.0001")
+    sine = [HALF_DEGREE, *interpolate(lambda z: (sine_of_half_over_angle(z) - mpf(HALF_DEGREE)) / z, mpf(0), largest_sq, degree)]
+    error = max(abs(value(sine, z) / sine_of_half_over_angle(z) - 1) for z in linspace(0, largest_sq, 2001))
+    show(name, error, sine)

@@ -27,6 +27,9 @@ const MOST_STEPS: usize = 80;
 const REFINEMENTS: usize = 24;
 /// A crossing is refined until the rise is right to this fraction.
 const CROSSING: f64 = 1e-3;
+/// An end that lies this near to the bound, in parts of the way from the minimum, is the bound: a profile that jumps there, as that of a
+/// weight does at 0, is only bracketed.
+const AT_BOUND: f64 = 1e-8;
 /// A fit with the unknown held is accurate to this fraction of the rise of the first limit.
 const ACCURACY: f64 = 1e-4;
 /// Evaluations of a held fit per unknown and one: it starts beside its minimum.
@@ -93,7 +96,7 @@ impl<'a, P: LeastSquares> Walk<'a, P> {
             for branches in 0..=MOST_BRANCHES {
                 let Some(crossing) = self.advance(level) else { return };
                 let end = self.refine(crossing, level);
-                self.ends[level] = Some(end.x[self.unknown]);
+                self.ends[level] = Some(self.end(&end));
                 if branches == MOST_BRANCHES {
                     break;
                 }
@@ -128,6 +131,13 @@ impl<'a, P: LeastSquares> Walk<'a, P> {
             }
         }
         None
+    }
+
+    /// The end of an interval at a crossing.
+    fn end(&self, crossing: &ProfileFit) -> f64 {
+        let value = self.value(crossing);
+        let way = (self.bound - self.value(self.at.minimum)).abs();
+        if (self.bound - value).abs() <= AT_BOUND * way { self.bound } else { value }
     }
 
     fn value(&self, fit: &ProfileFit) -> f64 {

@@ -1,11 +1,11 @@
 //! Points given by their angles, prepared in vectors: the formulas of [`crate::optics::Facet`] without a point's own record.
 
 use crate::model::Pbrdf;
-use crate::model::batch::elementary::ln;
+use crate::model::batch::elementary::log2;
 use crate::model::batch::lanes::{Instructions, Mask, V, Vectorised, choose, dispatch, number};
 use crate::model::batch::prepared::{LANES, PointBlock, blocks};
 use crate::model::batch::runner::radiances_of_blocks;
-use crate::model::batch::trigonometry::{cos_of_quadrant, half_angle_squares, sin_near_zero, sin_of_quadrant};
+use crate::model::batch::trigonometry::{cos_of_quadrant, half_angle_squares, sin_of_half, sin_of_half_near_zero};
 use crate::optics::{Facet, Geometry, GeometryError, RADIANS_PER_DEGREE};
 use fearless_simd::prelude::*;
 use std::ops::Range;
@@ -269,8 +269,8 @@ fn prepare<S: Simd>(simd: S, [theta_i, signed_theta_r, dphi]: [V<S>; 3], block: 
 
     let (cos_i, cos_r) = (cos_of_quadrant(simd, theta_i), cos_of_quadrant(simd, theta_r));
     let [sin_half_sq, cos_half_sq] = half_angle_squares(simd, dphi);
-    let sin_p = sin_of_quadrant(simd, (theta_i + theta_r) * 0.5);
-    let sin_m = sin_near_zero(simd, (theta_i - theta_r) * 0.5);
+    let sin_p = sin_of_half(simd, theta_i + theta_r);
+    let sin_m = sin_of_half_near_zero(simd, theta_i - theta_r);
 
     // p = (θi + θr)/2, m = (θi − θr)/2, c = (cos θi + cos θr)/2 = cos p cos m = cos β cos α, s = sin θi sin θr = sin²p − sin²m:
     // sin²β = s sin²½Δφ + sin²m, cos²β = s cos²½Δφ + c²/cos²m, tan²α = (s cos²½Δφ + c² tan²m)/c².
@@ -295,16 +295,14 @@ fn prepare<S: Simd>(simd: S, [theta_i, signed_theta_r, dphi]: [V<S>; 3], block: 
     // cos⁴α cos θi cos θr/G = cos²α max(cos²α cos θi cos θr, ½ cos β cos α max(cos θi, cos θr)).
     let over_open = cos_alpha_sq * cosines;
     let grooves = (mean_cosine * 0.5) * cos_i.max(cos_r);
-    let reduced = theta_r * RADIANS_PER_DEGREE;
 
     let end = first + V::<S>::LEN;
     sin_beta_sq.store_slice(&mut block.sin_beta_sq[first..end]);
     cos_beta_sq.store_slice(&mut block.cos_beta_sq[first..end]);
-    cos_beta_sq.sqrt().store_slice(&mut block.cos_beta[first..end]);
     tan_alpha_sq.store_slice(&mut block.tan_alpha_sq[first..end]);
     (over_open.max(grooves) * cos_alpha_sq).store_slice(&mut block.over_geometric[first..end]);
     (over_open * cos_alpha_sq).store_slice(&mut block.over_open[first..end]);
-    ln(simd, cosines, cosines_minus_1).store_slice(&mut block.ln_cosines[first..end]);
-    (reduced * reduced * 0.5).store_slice(&mut block.half_theta_r_sq[first..end]);
+    log2(simd, cosines, cosines_minus_1).store_slice(&mut block.log2_cosines[first..end]);
+    (theta_r * theta_r * (0.5 * RADIANS_PER_DEGREE * RADIANS_PER_DEGREE)).store_slice(&mut block.half_theta_r_sq[first..end]);
     good
 }

@@ -2,12 +2,12 @@
 
 use crate::model::{Diffuse, DolpFormula, Model, Parameter, Parameters, Pbrdf};
 use crate::optics::RefractiveIndex;
-use std::f64::consts::{FRAC_1_PI, PI};
+use std::f64::consts::{FRAC_1_PI, LOG2_E, PI};
 
 /// √(2π).
 const SQRT_TWO_PI: f64 = 2.506_628_274_631_000_5;
 
-/// Beyond this, coefficients times e^500 leave the range of f64 ([`crate::model::batch::kernels::STEEPEST`]).
+/// Beyond this, coefficients times 2^720 leave the range of f64 ([`crate::model::batch::kernels::STEEPEST`]).
 const LARGEST_RATIO: f64 = 1e60;
 /// Below this, squares of |N|² at normal incidence leave the range of f64.
 const SMALLEST_INDEX: f64 = 1e-30;
@@ -21,8 +21,8 @@ pub(crate) struct Coefficients {
     pub index: IndexCoefficients,
     /// 1/2σ².
     pub half_over_sigma_sq: f64,
-    /// −1/σ_v².
-    pub minus_over_sigma_v_sq: f64,
+    /// −log₂e/σ_v²: θr²/2 times that is the exponent of 2 in the volume lobe.
+    pub volume_fall: f64,
     /// k_s E h/8πσ²: the specular lobe is that times H e^(−x) / (W² Z), over the geometric factor.
     pub specular: f64,
     /// DoLP over the consistent value: 1, or 1/k_s as printed.
@@ -83,7 +83,7 @@ impl Coefficients {
             parameters: p,
             index,
             half_over_sigma_sq: 0.5 / (p.sigma * p.sigma),
-            minus_over_sigma_v_sq: -1.0 / (p.sigma_v * p.sigma_v),
+            volume_fall: -LOG2_E / (p.sigma_v * p.sigma_v),
             specular,
             dolp_gain: match model.dolp_formula {
                 DolpFormula::Consistent => 1.0,

@@ -13,11 +13,12 @@
 //! DoLP [as printed](DolpFormula::AsPrinted) is 1/k_s times the consistent value, and so are its derivatives, but by k_s: `−DoLP r/k_s`.
 
 use crate::model::batch::coefficients::Coefficients;
-use crate::model::batch::elementary::exp;
+use crate::model::batch::elementary::exp2;
 use crate::model::batch::kernels::{FresnelLanes, MINNAERT, NONE, STEEPEST, Slopes, diffuse_exponent, over_geometric, volume_exponent};
 use crate::model::batch::lanes::{Kernel, Mask, Points, V, choose, number};
 use crate::model::{DolpFormula, Parameter};
 use fearless_simd::prelude::*;
+use std::f64::consts::LN_2;
 
 /// Depolarised terms beyond this multiple of the specular one go the scalar way: their products near the end of f64.
 const DARKEST: f64 = 1e280;
@@ -57,10 +58,10 @@ impl<const CAUCHY: bool, const DIFFUSE: u8, const VOLUME: bool> Kernel<COLUMNS> 
         if DIFFUSE != NONE {
             let exponent = if DIFFUSE == MINNAERT { diffuse_exponent(points, of) + slopes.exponent } else { slopes.exponent };
             steepest = steepest.max(exponent);
-            diffuse = exp(simd, exponent) * of.diffuse_over_specular * gain;
+            diffuse = exp2(simd, exponent) * of.diffuse_over_specular * gain;
         }
         if VOLUME {
-            volume = exp(simd, volume_exponent(points, of) + slopes.exponent) * of.volume_over_specular * gain;
+            volume = exp2(simd, volume_exponent(points, of) + slopes.exponent) * of.volume_over_specular * gain;
         }
         let depolarised = diffuse.mul_add(number(simd, p.kd), volume * p.kv);
         let total = fresnel.h + depolarised;
@@ -88,13 +89,13 @@ impl<const CAUCHY: bool, const DIFFUSE: u8, const VOLUME: bool> Kernel<COLUMNS> 
             let by_weight = darkening * diffuse;
             out[column(Parameter::Kd)] = by_weight;
             if DIFFUSE == MINNAERT {
-                out[column(Parameter::C)] = by_weight * p.kd * points.load(|block| &block.ln_cosines);
+                out[column(Parameter::C)] = by_weight * (p.kd * LN_2) * points.load(|block| &block.log2_cosines);
             }
         }
         if VOLUME {
             let by_weight = darkening * volume;
             out[column(Parameter::Kv)] = by_weight;
-            let slope = volume_exponent(points, of) * 2.0 + 1.0;
+            let slope = volume_exponent(points, of) * (2.0 * LN_2) + 1.0;
             out[column(Parameter::SigmaV)] = by_weight * slope * (-p.kv / p.sigma_v);
         }
         let needs_scalar = steepest.simd_gt(number(simd, STEEPEST)) | fresnel.a_sq.simd_eq(zero) | total.simd_gt(number(simd, DARKEST));
@@ -111,7 +112,7 @@ impl<const CAUCHY: bool, const DIFFUSE: u8, const VOLUME: bool> Kernel<COLUMNS> 
         let fresnel = FresnelLanes::new(simd, points, of);
         let slopes = Slopes::new::<CAUCHY>(simd, points, of);
         let mut steepest = slopes.exponent;
-        let specular = exp(simd, -slopes.exponent) * of.specular * fresnel.h / (over_geometric(points, of) * fresnel.w_sq_z());
+        let specular = exp2(simd, -slopes.exponent) * of.specular * fresnel.h / (over_geometric(points, of) * fresnel.w_sq_z());
         let mut out = [zero; COLUMNS];
         out[0] = specular;
         if by_index {
@@ -126,18 +127,18 @@ impl<const CAUCHY: bool, const DIFFUSE: u8, const VOLUME: bool> Kernel<COLUMNS> 
             if DIFFUSE == MINNAERT {
                 let exponent = diffuse_exponent(points, of);
                 steepest = steepest.max(exponent);
-                diffuse = exp(simd, exponent) * of.diffuse_height;
-                out[column(Parameter::C)] = diffuse * p.kd * points.load(|block| &block.ln_cosines);
+                diffuse = exp2(simd, exponent) * of.diffuse_height;
+                out[column(Parameter::C)] = diffuse * (p.kd * LN_2) * points.load(|block| &block.log2_cosines);
             }
             out[0] += diffuse * p.kd;
             out[column(Parameter::Kd)] = diffuse;
         }
         if VOLUME {
             let exponent = volume_exponent(points, of);
-            let volume = exp(simd, exponent) * of.volume_height;
+            let volume = exp2(simd, exponent) * of.volume_height;
             out[0] += volume * p.kv;
             out[column(Parameter::Kv)] = volume;
-            out[column(Parameter::SigmaV)] = volume * (exponent * 2.0 + 1.0) * (-p.kv / p.sigma_v);
+            out[column(Parameter::SigmaV)] = volume * (exponent * (2.0 * LN_2) + 1.0) * (-p.kv / p.sigma_v);
         }
         let needs_scalar = steepest.simd_gt(number(simd, STEEPEST)) | fresnel.a_sq.simd_eq(zero);
         (out, needs_scalar)
@@ -150,7 +151,7 @@ fn lobe_slopes<const CAUCHY: bool, S: Simd>(simd: S, slopes: &Slopes<S>, of: &Co
     let p = &of.parameters;
     if CAUCHY {
         let slope = number(simd, p.q - 1.0).mul_sub(slopes.w, number(simd, 1.0)) / (slopes.w + 1.0);
-        [times * slope * (2.0 / p.sigma), times * (number(simd, 1.0 / (p.q - 1.0)) - slopes.ln)]
+        [times * slope * (2.0 / p.sigma), times * slopes.log2.mul_add(number(simd, -LN_2), number(simd, 1.0 / (p.q - 1.0)))]
     } else {
         [times * (slopes.w - 1.0) * (2.0 / p.sigma), number(simd, 0.0)]
     }
@@ -161,25 +162,25 @@ fn lobe_slopes<const CAUCHY: bool, S: Simd>(simd: S, slopes: &Slopes<S>, of: &Co
 fn index_slopes<S: Simd>(simd: S, fresnel: &FresnelLanes<S>, of: &Coefficients) -> ([V<S>; 2], [V<S>; 2]) {
     let (n, k) = (of.parameters.n, of.parameters.k);
     let splat = |value| number(simd, value);
-    let FresnelLanes { sin_sq, u, a_sq, larger, smaller, dense, .. } = *fresnel;
-    let v = choose::<S>(dense, smaller, larger);
+    let FresnelLanes { sin_sq, cos_sq, u_cos, a_sq, larger, smaller, dense, .. } = *fresnel;
+    let v_cos = choose::<S>(dense, smaller, larger);
     let one_over_a_sq = splat(1.0) / a_sq;
-    // ∂u/∂n and ∂u/∂k, the latter without the difference v² − k² (`optics::fresnel`).
-    let along = u.mul_add(splat(n), v * k) * one_over_a_sq;
-    let size_sq = v.mul_add(v, splat(of.index.n_sq));
-    let across = choose::<S>(size_sq.simd_gt(splat(0.0)), sin_sq * v * n / size_sq, splat(0.0)) * one_over_a_sq;
+    // cos β ∂u/∂n and cos β ∂u/∂k, the latter without the difference v² − k² (`optics::fresnel`).
+    let along = u_cos.mul_add(splat(n), v_cos * k) * one_over_a_sq;
+    let size_sq = v_cos.mul_add(v_cos, cos_sq * of.index.n_sq);
+    let across = choose::<S>(size_sq.simd_gt(splat(0.0)), sin_sq * cos_sq * v_cos * n / size_sq, splat(0.0)) * one_over_a_sq;
     let modulus_sq = of.index.n_sq + k * k;
-    let by_n = IndexSlope { u: along, a_sq: (splat(modulus_sq) - sin_sq) * (2.0 * n) * one_over_a_sq, ln_e: of.index.ln_e_slopes[0] };
-    let by_k = IndexSlope { u: across, a_sq: (sin_sq + modulus_sq) * (2.0 * k) * one_over_a_sq, ln_e: of.index.ln_e_slopes[1] };
+    let by_n = IndexSlope { u_cos: along, a_sq: (splat(modulus_sq) - sin_sq) * (2.0 * n) * one_over_a_sq, ln_e: of.index.ln_e_slopes[0] };
+    let by_k = IndexSlope { u_cos: across, a_sq: (sin_sq + modulus_sq) * (2.0 * k) * one_over_a_sq, ln_e: of.index.ln_e_slopes[1] };
     let shared = Shared::new(simd, fresnel, of);
     let (mean_n, limit_n) = shared.slopes(simd, fresnel, &by_n);
     let (mean_k, limit_k) = shared.slopes(simd, fresnel, &by_k);
     ([mean_n, mean_k], [limit_n, limit_k])
 }
 
-/// Derivatives of u, |a|² and ln E by one of n and k.
+/// Derivatives of u cos β, |a|² and ln E by one of n and k.
 struct IndexSlope<S: Simd> {
-    u: V<S>,
+    u_cos: V<S>,
     a_sq: V<S>,
     ln_e: f64,
 }
@@ -192,8 +193,7 @@ struct Shared<S: Simd> {
     /// R, and where it is so large that the form of `1 − R` keeps more digits.
     mean: V<S>,
     bright: Mask<S>,
-    /// (1 − R)/4u and its parts: cos β/W, cos β sin²β/2Z, Rs.
-    s_part: V<S>,
+    /// sin²β/2Z and Rs: (1 − R)/(4u cos β) = 1/W + Rs sin²β/2Z.
     p_part: V<S>,
     rs: V<S>,
 }
@@ -205,35 +205,26 @@ impl<S: Simd> Shared<S> {
         let (over_h, over_z, over_w) = (one / fresnel.h, one / fresnel.z, one / fresnel.w);
         let rs = over_w * over_w * of.index.e;
         let mean = rs * fresnel.h * over_z;
-        Self {
-            over_h,
-            over_z,
-            over_w,
-            mean,
-            bright: mean.simd_ge(number(simd, 0.5)),
-            s_part: fresnel.cos * over_w,
-            p_part: fresnel.cos * fresnel.sin_sq * over_z * 0.5,
-            rs,
-        }
+        Self { over_h, over_z, over_w, mean, bright: mean.simd_ge(number(simd, 0.5)), p_part: fresnel.sin_sq * over_z * 0.5, rs }
     }
 
     /// ∂ln R and ∂DoLP_s.
     #[inline(always)]
     fn slopes(&self, simd: S, fresnel: &FresnelLanes<S>, by: &IndexSlope<S>) -> (V<S>, V<S>) {
-        let Self { over_h, over_z, over_w, mean, bright, s_part, p_part, rs } = *self;
-        let FresnelLanes { cos, cos_sq, sin_sq, u, .. } = *fresnel;
-        let two_cos_du = cos * by.u * 2.0;
+        let Self { over_h, over_z, over_w, mean, bright, p_part, rs } = *self;
+        let FresnelLanes { cos_sq, sin_sq, u_cos, .. } = *fresnel;
+        let two_cos_du = by.u_cos + by.u_cos;
         let dh = cos_sq * by.a_sq;
         let ln_dh = dh * over_h;
         let ln_dw = (two_cos_du + by.a_sq) * over_w;
         let ln_dz = two_cos_du.mul_add(sin_sq, dh) * over_z;
         let of_dim = ln_dh - ln_dw * 2.0 - ln_dz + by.ln_e;
-        // A strong reflector hardly changes: 1 − R = 4u (cos β/W + Rs cos β sin²β/2Z) keeps the digits.
-        let absorbed = rs.mul_add(p_part, s_part);
+        // A strong reflector hardly changes: 1 − R = 4u cos β (1/W + Rs sin²β/2Z) keeps the digits.
+        let absorbed = rs.mul_add(p_part, over_w);
         let ln_drs = number(simd, by.ln_e) - ln_dw * 2.0;
-        let dabsorbed = (rs * p_part).mul_add(ln_drs - ln_dz, -(s_part * ln_dw));
-        let of_bright = u.mul_add(dabsorbed, by.u * absorbed) * -4.0 / mean;
-        let limit = cos * sin_sq * 2.0 * over_h * (by.u - u * ln_dh);
+        let dabsorbed = (rs * p_part).mul_add(ln_drs - ln_dz, -(over_w * ln_dw));
+        let of_bright = u_cos.mul_add(dabsorbed, by.u_cos * absorbed) * -4.0 / mean;
+        let limit = sin_sq * 2.0 * over_h * (by.u_cos - u_cos * ln_dh);
         (choose::<S>(bright, of_bright, of_dim), limit)
     }
 }

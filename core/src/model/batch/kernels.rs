@@ -1,22 +1,23 @@
 //! The kernels: DoLP, BRDF, and both with the specular part, of as many points as a vector has lanes.
 //!
 //! With the letters of `optics::fresnel` (a = u + iv, W = |cos β + a|², H, Z, E) and the specular lobe
-//! `S = K_s g e^(−x) H/(W² Z)`, K_s = k_s E h/8πσ², g the geometric factor, x the exponent of the slope distribution:
+//! `S = K_s g 2^(−x) H/(W² Z)`, K_s = k_s E h/8πσ², g the geometric factor, x the exponent of the slope distribution, of 2 as all
+//! exponents here:
 //!
 //! - `W = |a|² + cos²β + 2u cos β`, since `u² + v² = |a|²`: v is not needed
-//! - `DoLP = 2u sin²β cos β / (H + B W² Z)`, `B = (k_d F^d + k_v F^v) e^x / (K_s g)`: one division, no reflectance
+//! - `DoLP = 2u sin²β cos β / (H + B W² Z)`, `B = (k_d F^d + k_v F^v) 2^x / (K_s g)`: one division, no reflectance
 //!
 //! A term that is absent, or whose weight is 0, is not in the machine code that runs.
 
 use crate::model::batch::coefficients::Coefficients;
-use crate::model::batch::elementary::{exp, ln_1p};
+use crate::model::batch::elementary::{exp2, log2_1p};
 use crate::model::batch::lanes::{Kernel, Mask, Points, V, choose, number};
-use crate::model::batch::prepared::{LANES, PointBlock};
 use crate::optics::Masking;
 use fearless_simd::prelude::*;
+use std::f64::consts::LOG2_E;
 
-/// Exponents beyond this go the scalar way: e^500 times any weight is far from the end of f64.
-pub(crate) const STEEPEST: f64 = 500.0;
+/// Exponents of 2 beyond this go the scalar way: 2^720 times any weight is far from the end of f64.
+pub(crate) const STEEPEST: f64 = 720.0;
 
 /// Which terms a kernel has.
 pub(crate) const NONE: u8 = 0;
@@ -28,13 +29,12 @@ pub(crate) const MINNAERT: u8 = 2;
 pub(crate) struct FresnelLanes<S: Simd> {
     pub sin_sq: V<S>,
     pub cos_sq: V<S>,
-    pub cos: V<S>,
     pub a_sq: V<S>,
-    /// Whether Re(N² − sin²β) ≥ 0, and the larger and the smaller of u and v.
+    /// Whether Re(N² − sin²β) ≥ 0, and the larger and the smaller of u cos β and v cos β.
     pub dense: Mask<S>,
     pub larger: V<S>,
     pub smaller: V<S>,
-    pub u: V<S>,
+    pub u_cos: V<S>,
     /// 2u cos β sin²β ≤ H: over H it is DoLP_s.
     pub polarised: V<S>,
     pub h: V<S>,
@@ -66,36 +66,33 @@ impl<S: Simd> FresnelLanes<S> {
             nk: splat(of.index.nk),
             two_nk_sq: splat(of.index.two_nk_sq),
         };
-        let column = |of: fn(&PointBlock) -> &[f64; LANES]| points.load(of);
-        Self::of(simd, [column(|block| &block.sin_beta_sq), column(|block| &block.cos_beta_sq), column(|block| &block.cos_beta)], &index)
+        Self::of(simd, points.load(|block| &block.sin_beta_sq), points.load(|block| &block.cos_beta_sq), &index)
     }
 
-    /// Given sin²β, cos²β and cos β.
+    /// Given sin²β and cos²β.
     #[inline(always)]
-    pub(crate) fn of(simd: S, [sin_sq, cos_sq, cos]: [V<S>; 3], index: &IndexLanes<S>) -> Self {
+    pub(crate) fn of(simd: S, sin_sq: V<S>, cos_sq: V<S>, index: &IndexLanes<S>) -> Self {
         let splat = |value| number(simd, value);
         // Re(N² − sin²β), by whichever of two equal sums has the smaller terms.
         let by_excess = index.excess_size.max(cos_sq).simd_lt(index.n_sq.max(sin_sq));
         let x = choose::<S>(by_excess, cos_sq + index.excess, index.difference - sin_sq);
         let a_sq = x.mul_add(x, index.two_nk_sq).sqrt();
-        let larger = ((a_sq + x.abs()) * 0.5).sqrt();
+        let larger = ((a_sq + x.abs()) * 0.5 * cos_sq).sqrt();
         // The least number keeps 0/0 away at the critical angle of a transparent index.
-        let smaller = index.nk / larger.max(splat(f64::MIN_POSITIVE));
+        let smaller = index.nk * cos_sq / larger.max(splat(f64::MIN_POSITIVE));
         let dense = x.simd_ge(splat(0.0));
-        let u = choose::<S>(dense, larger, smaller);
+        let u_cos = choose::<S>(dense, larger, smaller);
         let h = a_sq.mul_add(cos_sq, sin_sq * sin_sq);
-        let u_cos = u * cos;
         let two_u_cos = u_cos + u_cos;
         let numerator = two_u_cos * sin_sq;
         Self {
             sin_sq,
             cos_sq,
-            cos,
             a_sq,
             dense,
             larger,
             smaller,
-            u,
+            u_cos,
             // An ulp or two above H near Brewster's angle.
             polarised: numerator.min(h),
             h,
@@ -115,9 +112,9 @@ impl<S: Simd> FresnelLanes<S> {
 pub(crate) struct Slopes<S: Simd> {
     /// w = tan²α/2σ².
     pub w: V<S>,
-    /// ln(1 + w); Cauchy only.
-    pub ln: V<S>,
-    /// x: the lobe falls off as e^(−x).
+    /// log₂(1 + w); Cauchy only.
+    pub log2: V<S>,
+    /// x: the lobe falls off as 2^(−x).
     pub exponent: V<S>,
 }
 
@@ -126,10 +123,10 @@ impl<S: Simd> Slopes<S> {
     pub(crate) fn new<const CAUCHY: bool>(simd: S, points: &Points<'_, S>, of: &Coefficients) -> Self {
         let w = points.load(|block| &block.tan_alpha_sq) * of.half_over_sigma_sq;
         if CAUCHY {
-            let ln = ln_1p(simd, w);
-            Self { w, ln, exponent: ln * of.parameters.q }
+            let log2 = log2_1p(simd, w);
+            Self { w, log2, exponent: log2 * of.parameters.q }
         } else {
-            Self { w, ln: w, exponent: w }
+            Self { w, log2: w, exponent: w * LOG2_E }
         }
     }
 }
@@ -143,15 +140,15 @@ pub(crate) fn over_geometric<S: Simd>(points: &Points<'_, S>, of: &Coefficients)
     }
 }
 
-/// Exponents of F^d and F^v; those of a term that is not there are not formed.
+/// Exponents of 2 in F^d and F^v; those of a term that is not there are not formed.
 #[inline(always)]
 pub(crate) fn diffuse_exponent<S: Simd>(points: &Points<'_, S>, of: &Coefficients) -> V<S> {
-    points.load(|block| &block.ln_cosines) * of.parameters.c
+    points.load(|block| &block.log2_cosines) * of.parameters.c
 }
 
 #[inline(always)]
 pub(crate) fn volume_exponent<S: Simd>(points: &Points<'_, S>, of: &Coefficients) -> V<S> {
-    points.load(|block| &block.half_theta_r_sq) * of.minus_over_sigma_v_sq
+    points.load(|block| &block.half_theta_r_sq) * of.volume_fall
 }
 
 /// DoLP.
@@ -169,15 +166,15 @@ impl<const CAUCHY: bool, const DIFFUSE: u8, const VOLUME: bool> Kernel<1> for Do
         let mut steepest = slopes.exponent;
         let mut b = number(simd, 0.0);
         if DIFFUSE == LAMBERT {
-            b = exp(simd, slopes.exponent) * (of.diffuse_over_specular * of.parameters.kd);
+            b = exp2(simd, slopes.exponent) * (of.diffuse_over_specular * of.parameters.kd);
         } else if DIFFUSE == MINNAERT {
             let exponent = diffuse_exponent(points, of) + slopes.exponent;
             steepest = steepest.max(exponent);
-            b = exp(simd, exponent) * (of.diffuse_over_specular * of.parameters.kd);
+            b = exp2(simd, exponent) * (of.diffuse_over_specular * of.parameters.kd);
         }
         if VOLUME {
             let exponent = volume_exponent(points, of) + slopes.exponent;
-            b = exp(simd, exponent).mul_add(number(simd, of.volume_over_specular * of.parameters.kv), b);
+            b = exp2(simd, exponent).mul_add(number(simd, of.volume_over_specular * of.parameters.kv), b);
         }
         let b = b * over_geometric(points, of);
         let dolp = fresnel.polarised / b.mul_add(fresnel.w_sq_z(), fresnel.h);
@@ -196,7 +193,7 @@ impl<const DOLP: bool, const CAUCHY: bool, const DIFFUSE: u8, const VOLUME: bool
         let slopes = Slopes::new::<CAUCHY>(simd, points, of);
         let mut steepest = slopes.exponent;
         // S/H.
-        let specular_over_h = exp(simd, -slopes.exponent) * of.specular / (over_geometric(points, of) * fresnel.w_sq_z());
+        let specular_over_h = exp2(simd, -slopes.exponent) * of.specular / (over_geometric(points, of) * fresnel.w_sq_z());
         let specular = specular_over_h * fresnel.h;
         let mut brdf = specular;
         if DIFFUSE == LAMBERT {
@@ -204,10 +201,10 @@ impl<const DOLP: bool, const CAUCHY: bool, const DIFFUSE: u8, const VOLUME: bool
         } else if DIFFUSE == MINNAERT {
             let exponent = diffuse_exponent(points, of);
             steepest = steepest.max(exponent);
-            brdf = exp(simd, exponent).mul_add(number(simd, of.diffuse_height * of.parameters.kd), brdf);
+            brdf = exp2(simd, exponent).mul_add(number(simd, of.diffuse_height * of.parameters.kd), brdf);
         }
         if VOLUME {
-            brdf = exp(simd, volume_exponent(points, of)).mul_add(number(simd, of.volume_height * of.parameters.kv), brdf);
+            brdf = exp2(simd, volume_exponent(points, of)).mul_add(number(simd, of.volume_height * of.parameters.kv), brdf);
         }
         let dolp = if !DOLP {
             number(simd, 0.0)

@@ -1,6 +1,7 @@
 //! Prepared geometries in blocks: what the kernels need of a point, column by column.
 
 use crate::optics::Facet;
+use std::f64::consts::LOG2_E;
 
 /// Points in a [`PointBlock`]: the widest vector, of AVX-512.
 pub(crate) const LANES: usize = 8;
@@ -11,14 +12,13 @@ pub(crate) const LANES: usize = 8;
 pub(crate) struct PointBlock {
     pub sin_beta_sq: [f64; LANES],
     pub cos_beta_sq: [f64; LANES],
-    pub cos_beta: [f64; LANES],
     pub tan_alpha_sq: [f64; LANES],
     /// cos⁴α cos θi cos θr/G: by what the specular lobe is divided.
     pub over_geometric: [f64; LANES],
     /// The same without masking–shadowing, G = 1.
     pub over_open: [f64; LANES],
-    /// ln(cos θi cos θr).
-    pub ln_cosines: [f64; LANES],
+    /// log₂(cos θi cos θr).
+    pub log2_cosines: [f64; LANES],
     /// θr²/2, in radians squared.
     pub half_theta_r_sq: [f64; LANES],
 }
@@ -28,11 +28,10 @@ pub(crate) struct PointBlock {
 pub(crate) struct BlockPoint {
     pub sin_beta_sq: f64,
     pub cos_beta_sq: f64,
-    pub cos_beta: f64,
     pub tan_alpha_sq: f64,
     pub over_geometric: f64,
     pub over_open: f64,
-    pub ln_cosines: f64,
+    pub log2_cosines: f64,
     pub half_theta_r_sq: f64,
 }
 
@@ -41,11 +40,10 @@ impl From<&Facet> for BlockPoint {
         Self {
             sin_beta_sq: facet.sin_beta_sq,
             cos_beta_sq: facet.cos_beta_sq,
-            cos_beta: facet.cos_beta,
             tan_alpha_sq: facet.tan_alpha_sq,
             over_geometric: over(facet.tan_alpha_sq, facet.g_over_cosines),
             over_open: over(facet.tan_alpha_sq, facet.one_over_cosines),
-            ln_cosines: facet.ln_cosines,
+            log2_cosines: facet.ln_cosines * LOG2_E,
             half_theta_r_sq: 0.5 * facet.theta_r * facet.theta_r,
         }
     }
@@ -62,11 +60,10 @@ impl PointBlock {
         Self {
             sin_beta_sq: column(|point| point.sin_beta_sq),
             cos_beta_sq: column(|point| point.cos_beta_sq),
-            cos_beta: column(|point| point.cos_beta),
             tan_alpha_sq: column(|point| point.tan_alpha_sq),
             over_geometric: column(|point| point.over_geometric),
             over_open: column(|point| point.over_open),
-            ln_cosines: column(|point| point.ln_cosines),
+            log2_cosines: column(|point| point.log2_cosines),
             half_theta_r_sq: column(|point| point.half_theta_r_sq),
         }
     }

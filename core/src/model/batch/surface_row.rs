@@ -4,13 +4,14 @@
 //! specular lobe unless it is σ or q, the other lobes unless it is c or σ_v.
 
 use crate::model::batch::coefficients::Coefficients;
-use crate::model::batch::elementary::{exp, ln_1p};
+use crate::model::batch::elementary::{exp2, log2_1p};
 use crate::model::batch::kernels::{FresnelLanes, IndexLanes, STEEPEST};
 use crate::model::batch::lanes::{Instructions, V, Vectorised, choose, dispatch, number};
 use crate::model::batch::prepared::LANES;
 use crate::model::{Diffuse, Model, Parameter, Parameters, Pbrdf};
 use crate::optics::{Facet, Masking, SlopeDistribution};
 use fearless_simd::prelude::*;
+use std::f64::consts::LOG2_E;
 
 /// A measured DoLP at a facet, and what the difference is multiplied by.
 #[derive(Debug, Clone, Copy)]
@@ -33,8 +34,8 @@ struct SurfaceBlock {
     half_over_sigma_sq: [f64; LANES],
     q: [f64; LANES],
     c: [f64; LANES],
-    minus_over_sigma_v_sq: [f64; LANES],
-    /// k_d F^d and k_v F^v without their exponentials, over the specular lobe without H e^(−x)/(W² Z g).
+    volume_fall: [f64; LANES],
+    /// k_d F^d and k_v F^v without their exponentials, over the specular lobe without H 2^(−x)/(W² Z g).
     diffuse: [f64; LANES],
     volume: [f64; LANES],
     gain: [f64; LANES],
@@ -53,7 +54,7 @@ impl SurfaceBlock {
             half_over_sigma_sq: [0.0; LANES],
             q: [0.0; LANES],
             c: [0.0; LANES],
-            minus_over_sigma_v_sq: [0.0; LANES],
+            volume_fall: [0.0; LANES],
             diffuse: [0.0; LANES],
             volume: [0.0; LANES],
             gain: [0.0; LANES],
@@ -77,7 +78,7 @@ impl SurfaceBlock {
         self.q[lane] = of.parameters.q;
         // Lambert's lobe has the exponent 0.
         self.c[lane] = if of.model.diffuse == Diffuse::Minnaert { of.parameters.c } else { 0.0 };
-        self.minus_over_sigma_v_sq[lane] = of.minus_over_sigma_v_sq;
+        self.volume_fall[lane] = of.volume_fall;
         self.diffuse[lane] = if of.has_diffuse() { of.diffuse_over_specular * of.parameters.kd } else { 0.0 };
         self.volume[lane] = if of.model.volume { of.volume_over_specular * of.parameters.kv } else { 0.0 };
         self.gain[lane] = of.dolp_gain;
@@ -148,24 +149,24 @@ impl<S: Simd> SurfaceLanes<'_, S> {
             nk: self.load(|block| &block.nk),
             two_nk_sq: self.load(|block| &block.two_nk_sq),
         };
-        let angles = [facet.sin_beta_sq, facet.cos_beta_sq, facet.cos_beta].map(|value| number(self.simd, value));
-        let lanes = FresnelLanes::of(self.simd, angles, &index);
+        let [sin_sq, cos_sq] = [facet.sin_beta_sq, facet.cos_beta_sq].map(|value| number(self.simd, value));
+        let lanes = FresnelLanes::of(self.simd, sin_sq, cos_sq, &index);
         (lanes.polarised, lanes.h, lanes.w_sq_z())
     }
 
-    /// x: the specular lobe falls as e^(−x).
+    /// x: the specular lobe falls as 2^(−x).
     #[inline(always)]
     fn fall(&self, facet: &Facet, is_cauchy: bool) -> V<S> {
         let w = self.load(|block| &block.half_over_sigma_sq) * facet.tan_alpha_sq;
-        if is_cauchy { ln_1p(self.simd, w) * self.load(|block| &block.q) } else { w }
+        if is_cauchy { log2_1p(self.simd, w) * self.load(|block| &block.q) } else { w * LOG2_E }
     }
 
     /// Exponents of the diffuse and the volume lobe.
     #[inline(always)]
     fn lobes(&self, facet: &Facet) -> [V<S>; 2] {
         [
-            self.load(|block| &block.c) * facet.ln_cosines,
-            self.load(|block| &block.minus_over_sigma_v_sq) * (0.5 * facet.theta_r * facet.theta_r),
+            self.load(|block| &block.c) * (facet.ln_cosines * LOG2_E),
+            self.load(|block| &block.volume_fall) * (0.5 * facet.theta_r * facet.theta_r),
         ]
     }
 }
@@ -184,7 +185,7 @@ impl Row<'_> {
         let Some(block) = self.blocks.first() else { return };
         let same = SurfaceLanes { simd, block, first: 0 };
         let (fresnel, fall, lobes) = (same.fresnel(facet), same.fall(facet, self.is_cauchy), same.lobes(facet));
-        let (rise, [diffuse, volume]) = (exp(simd, fall), lobes.map(|exponent| exp(simd, exponent)));
+        let (rise, [diffuse, volume]) = (exp2(simd, fall), lobes.map(|exponent| exp2(simd, exponent)));
         for (block, sums) in self.blocks.iter().zip(self.sums.iter_mut()) {
             for first in (0..LANES).step_by(V::<S>::LEN) {
                 let lanes = SurfaceLanes { simd, block, first };
@@ -192,12 +193,12 @@ impl Row<'_> {
                 let (mut highest, mut rise) = (fall, rise);
                 if by_slope {
                     highest = lanes.fall(facet, self.is_cauchy);
-                    rise = exp(simd, highest);
+                    rise = exp2(simd, highest);
                 }
                 let ([mut diffuse, mut volume], mut bent) = ([diffuse, volume], lobes);
                 if by_lobe {
                     bent = lanes.lobes(facet);
-                    [diffuse, volume] = bent.map(|exponent| exp(simd, exponent));
+                    [diffuse, volume] = bent.map(|exponent| exp2(simd, exponent));
                 }
                 let added = diffuse.mul_add(lanes.load(|block| &block.diffuse), volume * lanes.load(|block| &block.volume));
                 let b = rise * added * over_geometric;

@@ -1,64 +1,51 @@
-//! Sines of angles in degrees, of whole vectors.
+//! Sines of half an angle in degrees, of whole vectors.
 //!
-//! x = θ π/180, `sin x = x + x³ P(x²)`: for |θ| ≤ 45° with S of degree 5, for 0 ≤ θ ≤ 90° with L of degree 7 (truncation 2·10⁻¹⁷ and
-//! 4·10⁻¹⁷), by the script that [`crate::model::batch::elementary`] names. Products with π/180 are rounded once: with what a polynomial
-//! adds, a sine is 2 units in the last place off at most.
+//! `sin ½θ = θ K(θ²)`: for |θ| ≤ 90° with S of degree 6, for 0 ≤ θ ≤ 180° with L of degree 8 (truncation 2·10⁻¹⁷ and 6·10⁻¹⁷, π/360
+//! rounded among it), by the script that [`crate::model::batch::elementary`] names. With two roundings a sine is 2 units in the last place
+//! off at most.
 
-use crate::model::batch::elementary::TO_WHOLE;
+use crate::model::batch::elementary::{TO_WHOLE, polynomial};
 use crate::model::batch::lanes::{V, choose, number};
-use crate::optics::RADIANS_PER_DEGREE;
 use fearless_simd::prelude::*;
 
-const S: [f64; 6] = [
-    -0.166_666_666_666_666_66,
-    0.008_333_333_333_330_948,
-    -0.000_198_412_698_367_567_74,
-    2.755_731_610_161_787_4e-6,
-    -2.505_113_165_023_518e-8,
-    1.591_811_526_326_597_4e-10,
+const S: [f64; 7] = [
+    0.008_726_646_259_971_648,
+    -1.107_620_194_626_609_2e-7,
+    4.217_505_072_365_092_4e-13,
+    -7.647_175_661_459_666e-19,
+    8.088_409_641_502_522e-25,
+    -5.599_229_917_418_983e-31,
+    2.698_929_861_778_087e-37,
 ];
 
-const L: [f64; 8] = [
-    -0.166_666_666_666_666_66,
-    0.008_333_333_333_333_316,
-    -0.000_198_412_698_412_549_66,
-    2.755_731_921_916_083_3e-6,
-    -2.505_210_761_669_045e-8,
-    1.605_897_729_264_274_3e-10,
-    -7.643_969_663_988_074e-13,
-    2.731_436_876_937_989_5e-15,
+const L: [f64; 9] = [
+    0.008_726_646_259_971_648,
+    -1.107_620_194_626_616_6e-7,
+    4.217_505_072_381_388_7e-13,
+    -7.647_175_672_201_263e-19,
+    8.088_412_809_936_533e-25,
+    -5.599_700_288_167_084e-31,
+    2.733_320_867_382_178_6e-37,
+    -9.857_472_259_551_184e-44,
+    2.298_976_615_594_022_7e-50,
 ];
 
-/// Sine of −π/4 … π/4.
+/// Sine of half of −90 … 90 degrees.
 #[inline(always)]
-fn sin_near_zero_of_radians<I: Simd>(simd: I, x: V<I>) -> V<I> {
-    let z = x * x;
-    let z2 = z * z;
-    let pair = |j: usize| z.mul_add(number(simd, S[j + 1]), number(simd, S[j]));
-    (x * z).mul_add(z2.mul_add(z2.mul_add(pair(4), pair(2)), pair(0)), x)
+pub(crate) fn sin_of_half_near_zero<I: Simd>(simd: I, degrees: V<I>) -> V<I> {
+    degrees * polynomial(simd, &S, degrees * degrees)
 }
 
-/// Sine of −45 … 45 degrees.
+/// Sine of half of 0 … 180 degrees.
 #[inline(always)]
-pub(crate) fn sin_near_zero<I: Simd>(simd: I, degrees: V<I>) -> V<I> {
-    sin_near_zero_of_radians(simd, degrees * RADIANS_PER_DEGREE)
-}
-
-/// Sine of 0 … 90 degrees.
-#[inline(always)]
-pub(crate) fn sin_of_quadrant<I: Simd>(simd: I, degrees: V<I>) -> V<I> {
-    let x = degrees * RADIANS_PER_DEGREE;
-    let z = x * x;
-    let z2 = z * z;
-    let pair = |j: usize| z.mul_add(number(simd, L[j + 1]), number(simd, L[j]));
-    let (low, high) = (z2.mul_add(pair(2), pair(0)), z2.mul_add(pair(6), pair(4)));
-    (x * z).mul_add((z2 * z2).mul_add(high, low), x)
+pub(crate) fn sin_of_half<I: Simd>(simd: I, degrees: V<I>) -> V<I> {
+    degrees * polynomial(simd, &L, degrees * degrees)
 }
 
 /// Cosine of 0 … 90 degrees: near 90 with all digits.
 #[inline(always)]
 pub(crate) fn cos_of_quadrant<I: Simd>(simd: I, degrees: V<I>) -> V<I> {
-    sin_of_quadrant(simd, -degrees + 90.0)
+    sin_of_half(simd, -(degrees + degrees) + 180.0)
 }
 
 /// sin²½φ and cos²½φ of angles below 10⁹ degrees, each with all digits where it is small.
@@ -67,7 +54,7 @@ pub(crate) fn half_angle_squares<I: Simd>(simd: I, degrees: V<I>) -> [V<I>; 2] {
     let turns = degrees.mul_add(number(simd, 1.0 / 360.0), number(simd, TO_WHOLE)) - TO_WHOLE;
     let from_0 = turns.mul_add(number(simd, -360.0), degrees).abs();
     let from_180 = -from_0 + 180.0;
-    let sin = sin_near_zero_of_radians(simd, from_0.min(from_180) * (0.5 * RADIANS_PER_DEGREE));
+    let sin = sin_of_half_near_zero(simd, from_0.min(from_180));
     let smaller = sin * sin;
     let larger = -smaller + 1.0;
     let is_front = from_0.simd_lt(from_180);
@@ -76,7 +63,7 @@ pub(crate) fn half_angle_squares<I: Simd>(simd: I, degrees: V<I>) -> [V<I>; 2] {
 
 #[cfg(test)]
 mod tests {
-    use super::{cos_of_quadrant, half_angle_squares, sin_near_zero, sin_of_quadrant};
+    use super::{cos_of_quadrant, half_angle_squares, sin_of_half, sin_of_half_near_zero};
     use crate::model::batch::lanes::{Instructions, V, Vectorised, dispatch};
     use crate::optics::Degrees;
     use fearless_simd::prelude::*;
@@ -93,18 +80,19 @@ mod tests {
             let Self { degrees, worst } = self;
             for degrees in degrees.chunks_exact(V::<S>::LEN) {
                 let lanes = V::<S>::from_slice(simd, degrees);
-                let [near, sin, cos] = [sin_near_zero(simd, lanes), sin_of_quadrant(simd, lanes), cos_of_quadrant(simd, lanes)];
+                let [near, half, cos] = [sin_of_half_near_zero(simd, lanes), sin_of_half(simd, lanes), cos_of_quadrant(simd, lanes)];
                 let squares = half_angle_squares(simd, lanes);
                 for (lane, &degrees) in degrees.iter().enumerate() {
-                    let (expected_sin, expected_cos) = Degrees(degrees).sin_cos();
-                    if degrees.abs() <= 45.0 {
-                        worst[0] = worst[0].max(error(near.as_slice()[lane], expected_sin));
+                    let (half_sin, half_cos) = Degrees(0.5 * degrees).sin_cos();
+                    if degrees.abs() <= 90.0 {
+                        worst[0] = worst[0].max(error(near.as_slice()[lane], half_sin));
+                    }
+                    if (0.0..=180.0).contains(&degrees) {
+                        worst[0] = worst[0].max(error(half.as_slice()[lane], half_sin));
                     }
                     if (0.0..=90.0).contains(&degrees) {
-                        worst[0] = worst[0].max(error(sin.as_slice()[lane], expected_sin));
-                        worst[0] = worst[0].max(error(cos.as_slice()[lane], expected_cos));
+                        worst[0] = worst[0].max(error(cos.as_slice()[lane], Degrees(degrees).sin_cos().1));
                     }
-                    let (half_sin, half_cos) = Degrees(0.5 * degrees).sin_cos();
                     for (square, root) in squares.iter().zip([half_sin, half_cos]) {
                         worst[1] = worst[1].max(error(square.as_slice()[lane], root * root));
                     }

@@ -221,11 +221,10 @@ impl FacetsOfLamp {
         BlockPoint {
             sin_beta_sq: self.sin_beta_sq,
             cos_beta_sq: self.cos_beta_sq,
-            cos_beta: self.cos_beta,
             tan_alpha_sq,
             over_geometric: over(tan_alpha_sq, g_over_cosines),
             over_open: over(tan_alpha_sq, open),
-            ln_cosines: libm::log(cos_i * cos_r),
+            log2_cosines: libm::log2(cos_i * cos_r),
             half_theta_r_sq: 0.5 * theta_r * theta_r,
         }
     }
