@@ -3,6 +3,7 @@
 //! `2.049(23)` is 2.049 ± 0.023: the brackets count in the last digit of the value. `2.05(+31/−24)` has the interval 1.81 … 2.36. An uncertainty
 //! from 1 on is written with its decimal point, `15.3(1.2)`. What is no value with an uncertainty carries a mark that a note explains.
 
+use crate::figure::with_unit;
 use crate::report::language::ReportLanguage;
 use crate::report::latex_table::{parts_of_a_page, tabular};
 use crate::report::number::{Number, symmetric, within};
@@ -174,7 +175,7 @@ impl ResultTable {
 
     fn row(&self, parameter: Parameter, writer: &Writer) -> Vec<String> {
         let shared = self.columns.iter().any(|column| column.shared.contains(parameter));
-        let name = writer.symbol(parameter) + &writer.marks(if shared { &[Mark::Shared] } else { &[] });
+        let name = writer.name(parameter) + &writer.marks(if shared { &[Mark::Shared] } else { &[] });
         let cell = |column: &ResultColumn| {
             let estimate = column.estimates.iter().find(|estimate| estimate.parameter == parameter);
             let Cell { value, marks } = estimate.map_or(Cell { value: Number::None, marks: Vec::new() }, cell_of);
@@ -278,9 +279,10 @@ impl Writer {
         }
     }
 
-    fn symbol(&self, parameter: Parameter) -> String {
-        match self.format {
-            TableFormat::Csv => parameter.key().to_owned(),
+    /// A parameter's symbol with its unit; its key where a program reads.
+    fn name(&self, parameter: Parameter) -> String {
+        let symbol = match self.format {
+            TableFormat::Csv => return parameter.key().to_owned(),
             TableFormat::Plain => parameter.symbol().to_owned(),
             TableFormat::Markdown => self.plain(parameter.symbol()),
             TableFormat::Latex => {
@@ -297,7 +299,8 @@ impl Writer {
                 };
                 format!("${symbol}$")
             }
-        }
+        };
+        with_unit(&symbol, parameter.unit())
     }
 
     fn number(&self, number: &Number) -> String {

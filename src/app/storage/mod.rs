@@ -6,6 +6,7 @@ pub mod fit_record;
 pub mod folder;
 pub mod import;
 pub mod kept_work;
+mod measurement_table;
 pub mod saved_entry;
 pub mod saved_fit;
 pub mod saved_joint_fit;

@@ -57,6 +57,8 @@ pub struct SavedMeasurement {
     pub drawn: Option<Vec<usize>>,
     /// Which fit is shown while it is active, if it is not now.
     pub shown_fit: Option<usize>,
+    /// Of the comparison of models, row by row: the key of a preset, and which fit.
+    pub compared: Vec<(String, usize)>,
     /// Whether the program opened it by itself and nothing was done with it yet.
     pub is_placeholder: bool,
     pub measurement: Arc<Measurement>,
@@ -66,8 +68,19 @@ impl SavedMeasurement {
     /// An open one, without what may be known of it.
     pub fn of(measurement: Arc<Measurement>) -> Self {
         let (name, style) = (String::new(), MeasurementStyle::default());
-        let (drawn, shown_fit, is_placeholder) = (None, None, false);
-        Self { name, sha256: None, is_open: true, surface: None, style, weight: 1.0, drawn, shown_fit, is_placeholder, measurement }
+        Self {
+            name,
+            sha256: None,
+            is_open: true,
+            surface: None,
+            style,
+            weight: 1.0,
+            drawn: None,
+            shown_fit: None,
+            compared: Vec::new(),
+            is_placeholder: false,
+            measurement,
+        }
     }
 }
 

@@ -15,24 +15,26 @@
 //! Version 1 has one `measurement` instead of the list, and all fits are about it.
 
 use crate::app::storage::earlier_keys::EarlierFile;
-use crate::app::storage::fit_record::on_one_line;
+use crate::app::storage::measurement_table::{MeasurementTable, is_default};
 use crate::app::storage::saved_entry::{RestoredEntry, SavedEntry};
 use crate::app::storage::saved_fit::SavedMeasurement;
 use crate::app::storage::session_error::{SESSION_FORMAT, SESSION_VERSION, SavedFitError, SessionError};
 use crate::app::storage::settings_file::{SavedSettings, SurfaceOfFile};
-use crate::app::work::fit_history::FitEntry;
+use crate::app::work::fit_history::{FitEntry, KeptFit};
 use crate::app::work::layout::Layout;
 use crate::app::work::measurement_list::MeasurementList;
-use crate::app::work::open_measurement::{MeasurementStyle, OpenMeasurement, drawn_at_first};
+use crate::app::work::model_fit::ModelFit;
+use crate::app::work::open_measurement::{OpenMeasurement, drawn_at_first};
 use crate::app::work::settings::Settings;
 use crate::app::work::surface::{PinnedSurface, Surface};
 use crate::app::work::workspace::Workspace;
 use crate::files::export::program;
-use pbrdf::measurement::{Measurement, ReadError};
-use pbrdf::model::ParameterSet;
+
+use pbrdf::model::{ParameterSet, Preset};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::io::{self, Write};
+use std::mem;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -51,7 +53,7 @@ struct Contents<'a> {
     program: String,
     settings: &'a SavedSettings,
     layout: &'a Layout,
-    measurements: Vec<Table>,
+    measurements: Vec<MeasurementTable>,
     #[serde(skip_serializing_if = "is_default")]
     active: usize,
     #[serde(skip_serializing_if = "is_default")]
@@ -75,9 +77,9 @@ struct StoredContents {
     layout: Layout,
     /// The one of version 1.
     #[serde(default)]
-    measurement: Option<Table>,
+    measurement: Option<MeasurementTable>,
     #[serde(default)]
-    measurements: Vec<Table>,
+    measurements: Vec<MeasurementTable>,
     #[serde(default)]
     active: usize,
     #[serde(default)]
@@ -109,55 +111,10 @@ pub struct SavedFile {
     pub saved: bool,
 }
 
-fn is_default<T: Default + PartialEq>(value: &T) -> bool {
-    *value == T::default()
-}
-
 /// Files that do not say which fit was shown show the newest.
 #[expect(clippy::unnecessary_wraps, reason = "the type of the key")]
 fn newest() -> Option<usize> {
     Some(0)
-}
-
-/// A measurement in the file.
-#[derive(Serialize, Deserialize)]
-struct Table {
-    name: String,
-    sha256: Option<String>,
-    #[serde(default = "yes")]
-    open: bool,
-    /// That of an open measurement that is not the active one.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    surface: Option<Surface>,
-    #[serde(default, skip_serializing_if = "is_default")]
-    style: MeasurementStyle,
-    /// How often its squared residuals count in joint fits.
-    #[serde(default = "one", skip_serializing_if = "is_one")]
-    weight: f64,
-    /// The series that plots show, from 0, if not those that they show at first.
-    #[serde(default, skip_serializing_if = "Option::is_none", serialize_with = "on_one_line")]
-    drawn: Option<Vec<usize>>,
-    /// Which fit is shown while it is active, from 0, if it is not now.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    shown: Option<usize>,
-    /// Whether the next measurement that is opened takes its place.
-    #[serde(default, skip_serializing_if = "is_default")]
-    placeholder: bool,
-    /// The lines of a measurement file.
-    table: Vec<String>,
-}
-
-fn yes() -> bool {
-    true
-}
-
-fn one() -> f64 {
-    1.0
-}
-
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes a reference")]
-fn is_one(weight: &f64) -> bool {
-    *weight == 1.0
 }
 
 /// A session.
@@ -237,7 +194,7 @@ impl Session {
             numbers.push(open.number);
         }
         let mut tables = Tables { measurements, numbers, closed_rows: 0 };
-        let (mut fits, mut shown) = (Vec::new(), None);
+        let (mut fits, mut ids, mut shown) = (Vec::new(), Vec::new(), None);
         for row in work.fit_history().rows(work.active().number) {
             let mut parts: Vec<&FitEntry> = work.fit_history().parts(row.id).map(|fit| &**fit).collect();
             parts.sort_by_key(|fit| fit.joint.as_ref().map(|part| part.set));
@@ -250,8 +207,16 @@ impl Session {
                 *(if is_active { &mut shown } else { &mut tables.measurements[place].shown_fit }) = Some(fits.len());
             }
             fits.push(saved);
+            ids.push(row.id);
         }
-        let Tables { measurements, numbers, .. } = tables;
+        let Tables { mut measurements, numbers, .. } = tables;
+        for (saved, &number) in measurements.iter_mut().zip(&numbers).filter(|(saved, _)| saved.is_open) {
+            let row = |row: &ModelFit| {
+                let fit = row.result.as_ref().ok()?;
+                Some((row.preset.key.to_owned(), ids.iter().position(|id| *id == fit.id)?))
+            };
+            saved.compared = work.model_comparison_of(number).iter().filter_map(row).collect();
+        }
         Self {
             settings: SavedSettings { settings: work.settings().clone(), surface: work.surface().clone() },
             layout: work.layout().clone(),
@@ -284,12 +249,20 @@ impl Session {
             }
             opened
         };
+        let compared: Vec<_> = self.measurements.iter().map(|saved| saved.compared.clone()).collect();
+        let compared_as = |measurement: usize, fit: usize| {
+            let (key, _) = compared[measurement].iter().find(|(_, compared)| *compared == fit)?;
+            Preset::from_key(key)
+        };
         let is_open: Vec<bool> = self.measurements.iter().map(|saved| saved.is_open).collect();
         let measurements: Vec<OpenMeasurement> = self.measurements.into_iter().map(opened).collect();
         let mut entries = Vec::new();
         for (index, fit) in fits.into_iter().enumerate().rev() {
             let parts = fit.into_entries(&measurements).into_iter();
-            entries.extend(parts.map(|(measurement, entry)| (entry, shown[measurement] == Some(index))));
+            entries.extend(parts.map(|(measurement, fit)| {
+                let (is_shown, compared_as) = (shown[measurement] == Some(index), compared_as(measurement, index));
+                KeptFit { fit, is_shown, compared_as }
+            }));
         }
         let active = is_open.iter().take(self.active).filter(|is_open| **is_open).count();
         let open = measurements.into_iter().zip(is_open).filter(|(_, is_open)| *is_open).map(|(measurement, _)| measurement);
@@ -299,17 +272,6 @@ impl Session {
     }
 
     fn contents(&self) -> io::Result<Contents<'_>> {
-        let table = |measurement: &Arc<Measurement>| -> io::Result<Vec<String>> {
-            let mut bytes = Vec::new();
-            measurement.write(&mut bytes)?;
-            Ok(String::from_utf8_lossy(&bytes).lines().map(str::to_owned).collect())
-        };
-        let measurements = self.measurements.iter().map(|saved| -> io::Result<Table> {
-            let SavedMeasurement { name, sha256, is_open, surface, style, weight, drawn, shown_fit, is_placeholder, measurement } =
-                saved.clone();
-            let (open, shown, placeholder, table) = (is_open, shown_fit, is_placeholder, table(&measurement)?);
-            Ok(Table { name, sha256, open, surface, style, weight, drawn, shown, placeholder, table })
-        });
         let lesson = self.lesson.as_ref().map(|lesson| -> io::Result<_> {
             Ok(LessonContents { title: lesson.title.clone(), step: lesson.step, work: Box::new(lesson.work.contents()?) })
         });
@@ -319,7 +281,7 @@ impl Session {
             program: program(),
             settings: &self.settings,
             layout: &self.layout,
-            measurements: measurements.collect::<io::Result<_>>()?,
+            measurements: self.measurements.iter().map(MeasurementTable::new).collect::<io::Result<_>>()?,
             active: self.active,
             shared: self.shared,
             pinned: &self.pinned,
@@ -361,7 +323,7 @@ impl Session {
         let mut session = Self { fits: Vec::new(), shown: None, ..self.clone() };
         // Those that are not open stand behind the open ones: the active one keeps its place.
         session.measurements.retain(|saved| saved.is_open);
-        session.measurements.iter_mut().for_each(|saved| saved.shown_fit = None);
+        session.measurements.iter_mut().for_each(|saved| (saved.shown_fit, saved.compared) = (None, Vec::new()));
         session
     }
 
@@ -401,13 +363,8 @@ impl Session {
         from_json::<EarlierFile>(text)?.apply(&mut surface);
         surface.validate().and_then(|()| settings.validate()).map_err(SessionError::Settings)?;
         let tables = measurement.into_iter().chain(measurements);
-        let measurements = tables.map(|table| -> Result<SavedMeasurement, ReadError> {
-            let Table { name, sha256, open: is_open, surface, style, weight, drawn, shown: shown_fit, placeholder: is_placeholder, table } =
-                table;
-            let measurement = Arc::new(Measurement::read(table.join("\n").as_bytes())?);
-            Ok(SavedMeasurement { name, sha256, is_open, surface, style, weight, drawn, shown_fit, is_placeholder, measurement })
-        });
-        let mut measurements = measurements.collect::<Result<Vec<_>, _>>().map_err(SessionError::Measurement)?;
+        let mut measurements =
+            tables.map(MeasurementTable::into_measurement).collect::<Result<Vec<_>, _>>().map_err(SessionError::Measurement)?;
         let mut others = measurements.iter().filter_map(|saved| saved.surface.as_ref());
         others.try_for_each(Surface::validate).map_err(SessionError::Settings)?;
         let (mut fits, mut places, mut left_out) = (Vec::new(), Vec::new(), Vec::new());
@@ -421,7 +378,11 @@ impl Session {
             }
         }
         let place_of = |stored: Option<usize>| places.iter().position(|place| Some(*place) == stored);
-        measurements.iter_mut().for_each(|saved| saved.shown_fit = place_of(saved.shown_fit));
+        for saved in &mut measurements {
+            saved.shown_fit = place_of(saved.shown_fit);
+            saved.compared =
+                mem::take(&mut saved.compared).into_iter().filter_map(|(key, fit)| Some((key, place_of(Some(fit))?))).collect();
+        }
         let shown = place_of(stored_shown);
         // The user's own work opens also where that of the lesson does not.
         let lesson = lesson.and_then(|LessonContents { title, step, work }| {
@@ -441,9 +402,10 @@ fn from_json<T: DeserializeOwned>(text: &str) -> Result<T, SessionError> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Layout, Measurement, MeasurementList, OpenMeasurement, PinnedSurface, Session, Settings, Surface, Workspace};
+    use super::{Layout, MeasurementList, OpenMeasurement, PinnedSurface, Session, Settings, Surface, Workspace};
     use crate::app::work::open_measurement::{EXAMPLES, MeasurementStyle};
     use crate::figure::Symbol;
+    use pbrdf::measurement::Measurement;
     use pbrdf::model::{Parameter, ParameterSet, Parameters};
 
     fn opened(example: usize, n: f64, style: MeasurementStyle) -> OpenMeasurement {

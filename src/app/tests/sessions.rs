@@ -111,6 +111,28 @@ fn a_fit_of_a_session_is_shown_as_it_was() {
 }
 
 #[test]
+fn a_comparison_of_models_comes_back_row_by_row() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut before = harness();
+    order(&mut before, Action::CompareModels);
+    order(&mut before, Action::StartFit);
+    let path = saved(&mut before, folder.path());
+    let mut after = harness();
+    order(&mut after, Action::OpenSession(path));
+    let rows = |harness: &mut Harness<'static, Option<App>>| -> Vec<_> {
+        let rows = explorer(harness).work.model_comparison().iter();
+        // The way of a long fit is thinned in a file.
+        rows.map(|row| (row.preset.key, row.report().map(|fit| (fit.parameters, fit.objective, fit.estimates.clone())))).collect()
+    };
+    assert_eq!(rows(&mut before).len(), pbrdf::model::PRESETS.len());
+    assert_eq!(rows(&mut after), rows(&mut before));
+    // A click on a row finds its fit in the history.
+    edit(&mut after, Edit::UseModelFit(2));
+    let work = &explorer(&mut after).work;
+    assert_eq!(work.shown_fit().map(|fit| fit.id), work.model_comparison()[2].result.as_ref().ok().map(|fit| fit.id));
+}
+
+#[test]
 fn a_fit_of_dolp_and_brdf_together_comes_back_with_its_weights_and_intervals() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut before = harness();

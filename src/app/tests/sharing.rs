@@ -1,6 +1,7 @@
 //! Shared and own parameters of several measurements.
 
 use crate::app::storage::export::ExportKind;
+use crate::app::storage::session::Session;
 use crate::app::tests::measurements::{Window, activate, files, number_of, order, three};
 use crate::app::tests::{edit, explorer, harness, wait};
 use crate::app::views::action::{Action, ListAction};
@@ -308,6 +309,16 @@ fn models_are_compared_on_all_measurements_together_where_they_share_something()
     }
     let columns = explorer(&mut harness).results().expect("a table").columns.len();
     assert_eq!(columns, 3 * PRESETS.len());
+    // In a session each measurement has its part of every row.
+    let session = Session::of(&explorer(&mut harness).work).to_json().expect("memory takes everything");
+    let session = Session::read(&session).expect("a session");
+    let fits = session.fits.iter().filter_map(|fit| fit.restore(&session.measurements)).collect();
+    let again = session.into_work(fits);
+    for open in again.measurements().iter() {
+        let rows = again.model_comparison_of(open.number);
+        assert_eq!(rows.iter().map(|row| row.preset.key).collect::<Vec<_>>(), PRESETS.map(|preset| preset.key));
+        assert!(rows.iter().all(|row| row.result.as_ref().is_ok_and(|fit| fit.number == open.number)));
+    }
 }
 
 #[test]

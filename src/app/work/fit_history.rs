@@ -112,6 +112,15 @@ impl FitEntry {
     }
 }
 
+/// A fit that a session brings back.
+pub struct KeptFit {
+    pub fit: FitEntry,
+    /// Whether its measurement shows it.
+    pub is_shown: bool,
+    /// The model as which it stands in the comparison of its measurement.
+    pub compared_as: Option<&'static Preset>,
+}
+
 /// Fits that are kept.
 const MOST_FITS: usize = 60;
 

@@ -6,7 +6,7 @@ mod results;
 
 use crate::app::work::diagnostics::Diagnostics;
 use crate::app::work::edit::{Edit, Refit};
-use crate::app::work::fit_history::{FitEntry, FitHistory};
+use crate::app::work::fit_history::{FitEntry, FitHistory, KeptFit};
 use crate::app::work::history::History;
 use crate::app::work::layout::Layout;
 use crate::app::work::measurement_list::MeasurementList;
@@ -96,11 +96,16 @@ impl Workspace {
         layout: Layout,
         measurements: MeasurementList,
         pinned: Vec<PinnedSurface>,
-        fits: impl IntoIterator<Item = (FitEntry, bool)>,
+        fits: impl IntoIterator<Item = KeptFit>,
     ) -> Self {
         let mut work = Self { settings, layout, measurements, pinned, moved_at: 0, ..Self::default() };
-        for (fit, is_shown) in fits {
+        for KeptFit { fit, is_shown, compared_as } in fits {
             let fit = work.fit_history.push(fit);
+            if let Some(preset) = compared_as {
+                // The fit of the first row of a comparison is the newest.
+                let row = ModelFit { preset, result: Ok(fit.clone()), evidence: None };
+                work.results.of_mut(fit.number).model_comparison.insert(0, row);
+            }
             if is_shown {
                 work.show_fit(fit);
             }
@@ -153,7 +158,12 @@ impl Workspace {
 
     /// The presets fitted to the active measurement.
     pub fn model_comparison(&self) -> &[ModelFit] {
-        &self.results.of(self.active().number).model_comparison
+        self.model_comparison_of(self.active().number)
+    }
+
+    /// The comparison of models of the measurement of that number.
+    pub fn model_comparison_of(&self, number: u64) -> &[ModelFit] {
+        &self.results.of(number).model_comparison
     }
 
     /// Profile and bootstrap of the shown fit.

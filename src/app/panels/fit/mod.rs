@@ -42,7 +42,10 @@ pub fn fit_ui(cx: &mut Cx<'_>, ui: &mut Ui) {
         cx.switch_ui(Switch::RefitLive, tr!("keep refitting while I drag"), ui)
             .on_hover_text(tr!("Fixed parameters follow their sliders, the others are fitted again at once"));
         match jobs.fits.fit.job().map(Job::progress) {
-            Some(Some(point)) => ui.label(tr!("{0} evaluations, ΔE = {1}", point.evaluations, format!("{:.4e}", point.objective))),
+            Some(Some(point)) => {
+                let objective = format!("{:.4e}", point.objective);
+                ui.label(tr!("one evaluation, ΔE = {0}" | "{n} evaluations, ΔE = {0}" % point.evaluations, objective))
+            }
             Some(None) => ui.label(tr!("Fitting…")),
             None => ui.label(tr!("Sliders: {}", delta_e_text(cx.derived.delta_e()))).explained(glossary::delta_e_help()),
         };

@@ -210,7 +210,8 @@ fn effort_text(report: &FitResult) -> String {
     if report.course.minima.is_empty() {
         return tr!("not known: from a session of an older version");
     }
-    tr!("{0} ms, {1} evaluations", format!("{:.2}", report.course.elapsed_ms), report.course.evaluations)
+    let elapsed = format!("{:.2}", report.course.elapsed_ms);
+    tr!("{0} ms, one evaluation" | "{0} ms, {n} evaluations" % report.course.evaluations, elapsed)
 }
 
 /// χ² per degree of freedom where standard deviations were stated and used.
