@@ -11,7 +11,7 @@
 
 use crate::model::batch::lanes::{Bits, V, choose, number};
 use fearless_simd::prelude::*;
-use std::f64::consts::{FRAC_1_SQRT_2, LOG2_E};
+use std::f64::consts::{FRAC_1_SQRT_2, LN_2, LOG2_E};
 
 /// 1.5 · 2⁵²: adding it leaves the nearest whole number in the low bits.
 pub(crate) const TO_WHOLE: f64 = 6_755_399_441_055_744.0;
@@ -22,7 +22,7 @@ const FAINTEST: f64 = -1021.0;
 
 /// Q, its even and its odd coefficients.
 const Q_EVEN: [f64; 6] = [
-    0.693_147_180_559_945_3,
+    LN_2,
     0.055_504_108_664_821_6,
     0.001_333_355_814_641_692_7,
     1.525_273_382_985_159_6e-5,
