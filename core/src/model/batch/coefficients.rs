@@ -23,7 +23,7 @@ pub(crate) struct Coefficients {
     pub half_over_sigma_sq: f64,
     /// −log₂e/σ_v²: θr²/2 times that is the exponent of 2 in the volume lobe.
     pub volume_fall: f64,
-    /// k_s E h/8πσ²: the specular lobe is that times H e^(−x) / (W² Z), over the geometric factor.
+    /// k_s E h/8πσ²: the specular lobe is that times H 2^(−x) / (W² Z), over the geometric factor.
     pub specular: f64,
     /// DoLP over the consistent value: 1, or 1/k_s as printed.
     pub dolp_gain: f64,
