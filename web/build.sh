@@ -39,11 +39,11 @@ debian_toolchain() {
   fi
   export LD_LIBRARY_PATH=$root/usr/lib/x86_64-linux-gnu:$(dirname "$(find "$root" -name 'libLLVM*.so*' | head -1)")
   local found wanted
-  found=$("$root/usr/bin/rustc" -V | cut -d' ' -f2)
+  found=$("$root/usr/bin/rustc" -V | cut -d' ' -f2 || true)
   wanted=$(sed -n 's/^rust-version = "\(.*\)"/\1/p' Cargo.toml | head -1)
   if [ "$(printf '%s\n' "$wanted" "$found" | sort -V | head -1)" != "$wanted" ]; then
     rm -rf "$root" "$tools/debs"
-    echo "Debian's rustc-web is $found, the program needs $wanted: apt-get update first, with bookworm-security among the sources"
+    echo "Debian's rustc-web is $found, the program needs $wanted: apt-get update first, with bookworm-security among the sources" >&2
     exit 1
   fi
   CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER=$(rustc --print sysroot)/lib/rustlib/$(rustc -vV | sed -n 's/host: //p')/bin/rust-lld

@@ -175,7 +175,8 @@ impl ResultTable {
 
     fn row(&self, parameter: Parameter, writer: &Writer) -> Vec<String> {
         let shared = self.columns.iter().any(|column| column.shared.contains(parameter));
-        let name = writer.name(parameter) + &writer.marks(if shared { &[Mark::Shared] } else { &[] });
+        let symbol = writer.symbol(parameter) + &writer.marks(if shared { &[Mark::Shared] } else { &[] });
+        let name = if writer.format == TableFormat::Csv { symbol } else { with_unit(&symbol, parameter.unit()) };
         let cell = |column: &ResultColumn| {
             let estimate = column.estimates.iter().find(|estimate| estimate.parameter == parameter);
             let Cell { value, marks } = estimate.map_or(Cell { value: Number::None, marks: Vec::new() }, cell_of);
@@ -279,10 +280,10 @@ impl Writer {
         }
     }
 
-    /// A parameter's symbol with its unit; its key where a program reads.
-    fn name(&self, parameter: Parameter) -> String {
-        let symbol = match self.format {
-            TableFormat::Csv => return parameter.key().to_owned(),
+    /// A parameter's symbol; its key where a program reads.
+    fn symbol(&self, parameter: Parameter) -> String {
+        match self.format {
+            TableFormat::Csv => parameter.key().to_owned(),
             TableFormat::Plain => parameter.symbol().to_owned(),
             TableFormat::Markdown => self.plain(parameter.symbol()),
             TableFormat::Latex => {
@@ -299,8 +300,7 @@ impl Writer {
                 };
                 format!("${symbol}$")
             }
-        };
-        with_unit(&symbol, parameter.unit())
+        }
     }
 
     fn number(&self, number: &Number) -> String {

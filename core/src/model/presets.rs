@@ -118,7 +118,9 @@ impl Preset {
         exact.or_else(|| Self::of(model))
     }
 
-    fn has_terms_of(&self, model: Model) -> bool {
+    /// Whether a model has exactly these terms, whatever its formula of DoLP.
+    #[must_use]
+    pub fn has_terms_of(&self, model: Model) -> bool {
         self.model.with_dolp_formula(model.dolp_formula) == model
     }
 }

@@ -1,6 +1,7 @@
 //! A measurement as it stands in a session file: the lines of its CSV, and what the session knows of it.
 
 use crate::app::storage::fit_record::on_one_line;
+use crate::app::storage::saved_comparison::SavedComparison;
 use crate::app::storage::saved_fit::SavedMeasurement;
 use crate::app::work::open_measurement::MeasurementStyle;
 use crate::app::work::surface::Surface;
@@ -30,9 +31,9 @@ pub struct MeasurementTable {
     /// Which fit is shown while it is active, from 0, if it is not now.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     shown: Option<usize>,
-    /// Its comparison of models, row by row: the key of a preset, and which fit, from 0.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    compared: Vec<(String, usize)>,
+    /// Its comparison of models; fits are counted from 0.
+    #[serde(default, skip_serializing_if = "SavedComparison::is_empty", serialize_with = "on_one_line")]
+    compared: SavedComparison,
     /// Whether the next measurement that is opened takes its place.
     #[serde(default, skip_serializing_if = "is_default")]
     placeholder: bool,

@@ -7,6 +7,7 @@ pub mod folder;
 pub mod import;
 pub mod kept_work;
 mod measurement_table;
+mod saved_comparison;
 pub mod saved_entry;
 pub mod saved_fit;
 pub mod saved_joint_fit;

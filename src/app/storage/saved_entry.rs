@@ -5,7 +5,7 @@ use crate::app::storage::saved_joint_fit::{RestoredJointFit, SavedJointFit};
 use crate::app::storage::session_error::SavedFitError;
 use crate::app::work::fit_history::FitEntry;
 use crate::app::work::open_measurement::{Mask, OpenMeasurement};
-use pbrdf::model::Parameters;
+use pbrdf::model::{Parameters, Preset};
 use serde::Serialize;
 
 /// A fit of a session. In the file a joint one is known by its key `sets`.
@@ -53,6 +53,14 @@ impl SavedEntry {
 }
 
 impl RestoredEntry {
+    /// Whether it is, alone or with others, of the measurement of that number in the session, and has the terms of a preset.
+    pub fn is_of(&self, measurement: usize, preset: &Preset) -> bool {
+        match self {
+            Self::One(fit) => fit.measurement == measurement && preset.has_terms_of(fit.report.model),
+            Self::Joint(fit) => fit.sets.iter().any(|set| set.0 == measurement) && preset.has_terms_of(fit.joint.result.model),
+        }
+    }
+
     /// The entries of the history, each with the number of its measurement in the session, from 0.
     pub fn into_entries(self, measurements: &[OpenMeasurement]) -> Vec<(usize, FitEntry)> {
         match self {

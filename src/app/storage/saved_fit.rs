@@ -2,6 +2,7 @@
 
 use crate::app::storage::earlier_keys::EarlierKeys;
 use crate::app::storage::fit_record::{FitRecord, on_one_line};
+use crate::app::storage::saved_comparison::SavedComparison;
 use crate::app::storage::session_error::SavedFitError;
 use crate::app::work::fit_history::FitEntry;
 use crate::app::work::open_measurement::{Mask, MeasurementStyle, masked_rows};
@@ -57,8 +58,8 @@ pub struct SavedMeasurement {
     pub drawn: Option<Vec<usize>>,
     /// Which fit is shown while it is active, if it is not now.
     pub shown_fit: Option<usize>,
-    /// Of the comparison of models, row by row: the key of a preset, and which fit.
-    pub compared: Vec<(String, usize)>,
+    /// The comparison of models on it.
+    pub compared: SavedComparison,
     /// Whether the program opened it by itself and nothing was done with it yet.
     pub is_placeholder: bool,
     pub measurement: Arc<Measurement>,
@@ -77,7 +78,7 @@ impl SavedMeasurement {
             weight: 1.0,
             drawn: None,
             shown_fit: None,
-            compared: Vec::new(),
+            compared: SavedComparison::default(),
             is_placeholder: false,
             measurement,
         }

@@ -16,6 +16,7 @@
 
 use crate::app::storage::earlier_keys::EarlierFile;
 use crate::app::storage::measurement_table::{MeasurementTable, is_default};
+use crate::app::storage::saved_comparison::SavedComparison;
 use crate::app::storage::saved_entry::{RestoredEntry, SavedEntry};
 use crate::app::storage::saved_fit::SavedMeasurement;
 use crate::app::storage::session_error::{SESSION_FORMAT, SESSION_VERSION, SavedFitError, SessionError};
@@ -23,7 +24,6 @@ use crate::app::storage::settings_file::{SavedSettings, SurfaceOfFile};
 use crate::app::work::fit_history::{FitEntry, KeptFit};
 use crate::app::work::layout::Layout;
 use crate::app::work::measurement_list::MeasurementList;
-use crate::app::work::model_fit::ModelFit;
 use crate::app::work::open_measurement::{OpenMeasurement, drawn_at_first};
 use crate::app::work::settings::Settings;
 use crate::app::work::surface::{PinnedSurface, Surface};
@@ -211,11 +211,8 @@ impl Session {
         }
         let Tables { mut measurements, numbers, .. } = tables;
         for (saved, &number) in measurements.iter_mut().zip(&numbers).filter(|(saved, _)| saved.is_open) {
-            let row = |row: &ModelFit| {
-                let fit = row.result.as_ref().ok()?;
-                Some((row.preset.key.to_owned(), ids.iter().position(|id| *id == fit.id)?))
-            };
-            saved.compared = work.model_comparison_of(number).iter().filter_map(row).collect();
+            let place_of = |id: usize| ids.iter().position(|saved| *saved == id);
+            saved.compared = SavedComparison::new(work.model_comparison_of(number), place_of);
         }
         Self {
             settings: SavedSettings { settings: work.settings().clone(), surface: work.surface().clone() },
@@ -232,8 +229,8 @@ impl Session {
         }
     }
 
-    /// The work that it holds, with its fits restored.
-    pub fn into_work(self, fits: Vec<RestoredEntry>) -> Workspace {
+    /// The work that it holds, with its fits restored, each in its place.
+    pub fn into_work(self, fits: Vec<Option<RestoredEntry>>) -> Workspace {
         let SavedSettings { settings, surface } = self.settings;
         let mut shown: Vec<Option<usize>> = self.measurements.iter().map(|saved| saved.shown_fit).collect();
         if let Some(active) = shown.get_mut(self.active) {
@@ -249,18 +246,19 @@ impl Session {
             }
             opened
         };
-        let compared: Vec<_> = self.measurements.iter().map(|saved| saved.compared.clone()).collect();
-        let compared_as = |measurement: usize, fit: usize| {
-            let (key, _) = compared[measurement].iter().find(|(_, compared)| *compared == fit)?;
-            Preset::from_key(key)
+        let compared = |(measurement, saved): (usize, &SavedMeasurement)| {
+            let is_fit_of =
+                |fit: usize, preset: &Preset| fits.get(fit).and_then(Option::as_ref).is_some_and(|entry| entry.is_of(measurement, preset));
+            saved.compared.presets(is_fit_of)
         };
+        let compared: Vec<_> = self.measurements.iter().enumerate().map(compared).collect();
         let is_open: Vec<bool> = self.measurements.iter().map(|saved| saved.is_open).collect();
         let measurements: Vec<OpenMeasurement> = self.measurements.into_iter().map(opened).collect();
         let mut entries = Vec::new();
         for (index, fit) in fits.into_iter().enumerate().rev() {
-            let parts = fit.into_entries(&measurements).into_iter();
+            let parts = fit.into_iter().flat_map(|fit| fit.into_entries(&measurements));
             entries.extend(parts.map(|(measurement, fit)| {
-                let (is_shown, compared_as) = (shown[measurement] == Some(index), compared_as(measurement, index));
+                let (is_shown, compared_as) = (shown[measurement] == Some(index), compared[measurement].get(&index).copied());
                 KeptFit { fit, is_shown, compared_as }
             }));
         }
@@ -323,7 +321,7 @@ impl Session {
         let mut session = Self { fits: Vec::new(), shown: None, ..self.clone() };
         // Those that are not open stand behind the open ones: the active one keeps its place.
         session.measurements.retain(|saved| saved.is_open);
-        session.measurements.iter_mut().for_each(|saved| (saved.shown_fit, saved.compared) = (None, Vec::new()));
+        session.measurements.iter_mut().for_each(|saved| (saved.shown_fit, saved.compared) = (None, SavedComparison::default()));
         session
     }
 
@@ -380,8 +378,7 @@ impl Session {
         let place_of = |stored: Option<usize>| places.iter().position(|place| Some(*place) == stored);
         for saved in &mut measurements {
             saved.shown_fit = place_of(saved.shown_fit);
-            saved.compared =
-                mem::take(&mut saved.compared).into_iter().filter_map(|(key, fit)| Some((key, place_of(Some(fit))?))).collect();
+            saved.compared = mem::take(&mut saved.compared).moved(|fit| place_of(Some(fit)));
         }
         let shown = place_of(stored_shown);
         // The user's own work opens also where that of the lesson does not.

@@ -14,7 +14,8 @@ use tr::tr;
 /// A session with its fits restored, the newest first.
 pub struct OpenedSession {
     pub session: Session,
-    pub fits: Vec<RestoredEntry>,
+    /// In their order; none where the data of the session no longer allow one.
+    pub fits: Vec<Option<RestoredEntry>>,
     /// The lesson that was open.
     pub lesson: Option<Box<OpenedLesson>>,
 }
@@ -42,7 +43,7 @@ impl OpenedSession {
 
     /// Restores the fits that the data of the session still allow.
     pub fn new(mut session: Session) -> Self {
-        let fits = session.fits.iter().filter_map(|fit| fit.restore(&session.measurements)).collect();
+        let fits = session.fits.iter().map(|fit| fit.restore(&session.measurements)).collect();
         let lesson = session.lesson.take().map(|lesson| {
             let SavedLesson { title, step, work } = *lesson;
             Box::new(OpenedLesson { title, step, work: Self::new(work) })

@@ -118,7 +118,7 @@ fn a_comparison_of_models_comes_back_row_by_row() {
     order(&mut before, Action::StartFit);
     let path = saved(&mut before, folder.path());
     let mut after = harness();
-    order(&mut after, Action::OpenSession(path));
+    order(&mut after, Action::OpenSession(path.clone()));
     let rows = |harness: &mut Harness<'static, Option<App>>| -> Vec<_> {
         let rows = explorer(harness).work.model_comparison().iter();
         // The way of a long fit is thinned in a file.
@@ -126,6 +126,17 @@ fn a_comparison_of_models_comes_back_row_by_row() {
     };
     assert_eq!(rows(&mut before).len(), pbrdf::model::PRESETS.len());
     assert_eq!(rows(&mut after), rows(&mut before));
+    // What is no comparison is none, and takes nothing else with it: a fit of another model, none, and no number.
+    let text = std::fs::read_to_string(&path).expect("the session");
+    let line = text.lines().find(|line| line.contains("\"compared\":")).expect("a comparison").to_owned();
+    for wrong in [line.replace("\"gauss\"", "\"cauchy\""), line.replace("],[", "0],["), line.replacen("[[", "[null,[", 1)] {
+        assert_ne!(wrong, line);
+        std::fs::write(&path, text.replace(&line, &wrong)).expect("a file");
+        let mut damaged = harness();
+        order(&mut damaged, Action::OpenSession(path.clone()));
+        assert!(rows(&mut damaged).is_empty(), "{wrong}");
+        assert_eq!(explorer(&mut damaged).work.fit_history().len(), explorer(&mut before).work.fit_history().len());
+    }
     // A click on a row finds its fit in the history.
     edit(&mut after, Edit::UseModelFit(2));
     let work = &explorer(&mut after).work;

@@ -312,7 +312,7 @@ fn models_are_compared_on_all_measurements_together_where_they_share_something()
     // In a session each measurement has its part of every row.
     let session = Session::of(&explorer(&mut harness).work).to_json().expect("memory takes everything");
     let session = Session::read(&session).expect("a session");
-    let fits = session.fits.iter().filter_map(|fit| fit.restore(&session.measurements)).collect();
+    let fits = session.fits.iter().map(|fit| fit.restore(&session.measurements)).collect();
     let again = session.into_work(fits);
     for open in again.measurements().iter() {
         let rows = again.model_comparison_of(open.number);

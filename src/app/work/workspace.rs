@@ -90,7 +90,7 @@ impl Workspace {
         }
     }
 
-    /// Work that was kept; fits from the oldest to the newest, each with whether it is shown.
+    /// Work that was kept; fits from the oldest to the newest: a comparison gets its rows in that order, the last one first.
     pub fn restored(
         settings: Settings,
         layout: Layout,

@@ -27,9 +27,9 @@ const MOST_STEPS: usize = 80;
 const REFINEMENTS: usize = 24;
 /// A crossing is refined until the rise is right to this fraction.
 const CROSSING: f64 = 1e-3;
-/// An end that lies this near to the bound, in parts of the way from the minimum, is the bound: a profile that jumps there, as that of a
-/// weight does at 0, is only bracketed.
-const AT_BOUND: f64 = 1e-8;
+/// An end that lies this near to a bound of 0, in parts of the value at the minimum, is 0: the profile of a weight jumps there, where its
+/// lobe goes, and a jump is only bracketed.
+const NO_WEIGHT: f64 = 1e-8;
 /// A fit with the unknown held is accurate to this fraction of the rise of the first limit.
 const ACCURACY: f64 = 1e-4;
 /// Evaluations of a held fit per unknown and one: it starts beside its minimum.
@@ -136,8 +136,8 @@ impl<'a, P: LeastSquares> Walk<'a, P> {
     /// The end of an interval at a crossing.
     fn end(&self, crossing: &ProfileFit) -> f64 {
         let value = self.value(crossing);
-        let way = (self.bound - self.value(self.at.minimum)).abs();
-        if (self.bound - value).abs() <= AT_BOUND * way { self.bound } else { value }
+        let is_no_weight = self.bound == 0.0 && value.abs() <= NO_WEIGHT * self.value(self.at.minimum).abs();
+        if is_no_weight { 0.0 } else { value }
     }
 
     fn value(&self, fit: &ProfileFit) -> f64 {

@@ -10,7 +10,7 @@ use crate::optics::{Facet, Geometry, GeometryError, RADIANS_PER_DEGREE};
 use fearless_simd::prelude::*;
 use std::ops::Range;
 
-/// Points that are prepared and evaluated before the next ones: their blocks are 32 KiB.
+/// Points that are prepared and evaluated before the next ones: their blocks are 28 KiB.
 const CHUNK: usize = 512;
 /// Azimuths beyond this, in degrees, go the scalar way, which reduces them exactly.
 const LARGEST_AZIMUTH: f64 = 1e6;

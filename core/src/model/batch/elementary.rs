@@ -6,8 +6,8 @@
 //!   that small w keep their digits; with s = f/(2 + f), `ln(1 + f) = f − (f²/2 − s (f²/2 + s² R(s²)))`, R of degree 6 (truncation 5·10⁻¹⁸).
 //!
 //! Q and R interpolate (2^f − 1)/f and (ln((1 + s)/(1 − s)) − 2s)/s³ at Chebyshev nodes in 50-digit arithmetic
-//! (`assets/reference/make_batch_polynomials.py`). The reductions are W. J. Cody and W. Waite, *Software Manual for the Elementary
-//! Functions* (1980), chapters 5 and 6.
+//! (`assets/reference/make_batch_polynomials.py`). The reduction of the logarithm is that of W. J. Cody and W. Waite, *Software Manual for
+//! the Elementary Functions* (1980), chapter 5.
 
 use crate::model::batch::lanes::{Bits, V, choose, number};
 use fearless_simd::prelude::*;
@@ -17,7 +17,7 @@ use std::f64::consts::{FRAC_1_SQRT_2, LN_2, LOG2_E};
 pub(crate) const TO_WHOLE: f64 = 6_755_399_441_055_744.0;
 /// 2⁵²: whole numbers below it, put into its low bits, are themselves once it is taken off.
 const TWO_52: f64 = 4_503_599_627_370_496.0;
-/// Below this 2^t is subnormal: what is smaller counts as this small.
+/// The least exponent: 2^m times a mantissa from √½ on is no subnormal number. What is smaller counts as this small.
 const FAINTEST: f64 = -1021.0;
 
 /// Q, its even and its odd coefficients.
