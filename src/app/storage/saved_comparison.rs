@@ -22,9 +22,8 @@ impl<'de> Deserialize<'de> for SavedComparison {
 impl SavedComparison {
     /// Of rows, given the place in the session of the fit of an id.
     pub fn new(rows: &[ModelFit], place_of: impl Fn(usize) -> Option<usize>) -> Self {
-        let fitted = rows.iter().filter_map(|row| Some((row.preset, row.result.as_ref().ok()?)));
-        let rows: Option<Vec<_>> = fitted.map(|(preset, fit)| Some((preset.key.to_owned(), place_of(fit.id)?))).collect();
-        Self(rows.unwrap_or_default())
+        let by_id = rows.iter().filter_map(|row| Some((row.preset.key.to_owned(), row.result.as_ref().ok()?.id)));
+        Self(by_id.collect()).moved(place_of)
     }
 
     pub fn is_empty(&self) -> bool {
@@ -39,8 +38,7 @@ impl SavedComparison {
 
     /// Its models by the places of their fits, if each of these is one.
     pub fn presets(&self, is_fit_of: impl Fn(usize, &Preset) -> bool) -> BTreeMap<usize, &'static Preset> {
-        let row =
-            |(key, fit): &(String, usize)| Preset::from_key(key).filter(|preset| is_fit_of(*fit, preset)).map(|preset| (*fit, preset));
+        let row = |(key, fit): &(String, usize)| Some((*fit, Preset::from_key(key).filter(|preset| is_fit_of(*fit, preset))?));
         let presets: Option<BTreeMap<_, _>> = self.0.iter().map(row).collect();
         presets.unwrap_or_default()
     }
